@@ -1,0 +1,1 @@
+//! Control cages: reading OBJ and glTF, validation, topology.

@@ -1,0 +1,1 @@
+//! Perceptual comparison of pictures by FLIP, for golden images and for users.

@@ -1,0 +1,1 @@
+//! Smooth subdivision surfaces through hull and domain stages of Vulkan: the library.

@@ -1,0 +1,1 @@
+//! Refinement tables and patch plans of a cage.

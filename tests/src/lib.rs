@@ -1,0 +1,1 @@
+//! The test harness: device, zoo of cages, reference data, image comparison.
