@@ -1,0 +1,41 @@
+// Numbers shared with the host (crates/shaders reads the #define lines).
+#ifndef CONSTANTS_GLSL
+#define CONSTANTS_GLSL
+
+// Threads of a compute workgroup, and workgroups along x before a dispatch folds into y.
+#define GROUP_SIZE 64
+#define GROUPS_X 32768
+
+// Floats of a record in its buffer.
+#define POINT_FLOATS 3
+#define VERTEX_RECORD_FLOATS 6
+#define EDGE_RECORD_FLOATS 24
+#define GREGORY_POINTS 20
+#define SAMPLE_FLOATS 12
+
+// PatchRecord.tag: what evaluates the patch (bits 0..1), boundary flag (bit 2), valence of corner 0 (from bit 8).
+#define KIND_REGULAR 0
+#define KIND_EXTRAORDINARY 1
+#define KIND_COEFFICIENTS 2
+#define KIND_MASK 3
+#define TAG_BOUNDARY 4
+#define TAG_VALENCE_SHIFT 8
+
+// Frame.factor_mode
+#define FACTORS_UNIFORM 0
+#define FACTORS_ADAPTIVE 1
+
+// Frame.shade
+#define SHADE_LIT 0
+#define SHADE_NORMALS 1
+#define SHADE_PATCHES 2
+#define SHADE_VALENCE 3
+#define SHADE_WIREFRAME 4
+#define SHADE_ZEBRA 5
+#define SHADE_CURVATURE 6
+#define SHADE_PEER 7
+
+// Specialization constants.
+#define SPEC_NET_SIZE 0
+
+#endif

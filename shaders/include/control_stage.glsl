@@ -1,0 +1,24 @@
+// Interface of the tessellation control stages that transform a net. Define POINTS_OUT, the control points written, before the include.
+#ifndef CONTROL_STAGE_GLSL
+#define CONTROL_STAGE_GLSL
+#include "patch_push.glsl"
+#include "factors.glsl"
+
+layout(vertices = POINTS_OUT) out;
+
+layout(location = 0) in vec3 net_point[];
+layout(location = 1) in flat uint net_patch[];
+
+layout(location = 0) out vec3 control_point[];
+layout(location = 1) patch out uint patch_id;
+
+// Once per patch: its id and its factors.
+void write_patch() {
+    if (gl_InvocationID == 0) {
+        uint id = net_patch[0];
+        patch_id = id;
+        WRITE_FACTORS(id)
+    }
+}
+
+#endif

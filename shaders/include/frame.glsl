@@ -1,0 +1,38 @@
+// What changes from frame to frame: camera, tessellation and shading.
+#ifndef FRAME_GLSL
+#define FRAME_GLSL
+#include "bindings.glsl"
+
+layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
+    // Clip space from cage space (the cage's own frame: centred and scaled by a power of two).
+    mat4 clip_from_cage;
+    // View space from cage space.
+    mat4 view_from_cage;
+    // Eye in cage space; w unused.
+    vec4 eye;
+    // Uniform tessellation factor of a patch edge.
+    float level;
+    // Adaptive factors: segments of an edge of unit length at unit distance.
+    float segments_per_length;
+    // FACTORS_*
+    uint factor_mode;
+    // SHADE_*
+    uint shade;
+    // Scale of curvature in its colour map: length in cage space whose inverse saturates.
+    float curvature_length;
+    // Smallest distance from the eye that adaptive factors tell apart.
+    float near;
+    uint padding0;
+    uint padding1;
+    // Line colour of wireframe and cage overlay.
+    vec4 line_color;
+} frame;
+
+// The one clip-space transform: positions equal bit for bit stay equal.
+vec4 clip_position(vec3 p) {
+    mat4 m = frame.clip_from_cage;
+    precise vec4 r = ((m[0] * p.x + m[1] * p.y) + m[2] * p.z) + m[3];
+    return r;
+}
+
+#endif

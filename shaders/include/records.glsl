@@ -1,0 +1,97 @@
+// Vertex and edge records: the one source of positions and normals on shared vertices and edges (ARCHITECTURE.md, "Records").
+// Equal record and equal t give equal bits in every stage and pipeline; hence `precise` throughout.
+#ifndef RECORDS_GLSL
+#define RECORDS_GLSL
+#include "bindings.glsl"
+#include "constants.glsl"
+#include "vector.glsl"
+#include "bezier.glsl"
+
+// What a patch needs beside its net. vertex[k]: record of corner k. edge[k]: record of side k, shifted left by one, plus the flip bit.
+struct PatchRecord {
+    uint vertex[4];
+    uint edge[4];
+    // First index of the net in Nets.
+    uint net;
+    // First weight of the change of basis in Weights (extraordinary), or index in Coefficients.
+    uint basis;
+    // Points of the net.
+    uint net_size;
+    // KIND_*, TAG_BOUNDARY, valence.
+    uint tag;
+};
+
+layout(std430, set = 0, binding = BINDING_PATCHES) readonly buffer Patches { PatchRecord patches[]; };
+layout(std430, set = 0, binding = BINDING_VERTEX_RECORDS) readonly buffer VertexRecords { float vertex_records[]; };
+layout(std430, set = 0, binding = BINDING_EDGE_RECORDS) readonly buffer EdgeRecords { float edge_records[]; };
+
+struct SurfacePoint {
+    vec3 position;
+    vec3 normal;
+};
+
+vec3 edge_record_point(uint edge, uint i) {
+    uint at = EDGE_RECORD_FLOATS * edge + 3u * i;
+    return vec3(edge_records[at], edge_records[at + 1u], edge_records[at + 2u]);
+}
+
+SurfacePoint vertex_record_point(uint vertex) {
+    uint at = VERTEX_RECORD_FLOATS * vertex;
+    return SurfacePoint(
+        vec3(vertex_records[at], vertex_records[at + 1u], vertex_records[at + 2u]),
+        vec3(vertex_records[at + 3u], vertex_records[at + 4u], vertex_records[at + 5u]));
+}
+
+// The point of an edge record at t: position C(t), normal along C'(t) x D(t).
+SurfacePoint edge_record_at(uint edge, float t) {
+    vec3 c0 = edge_record_point(edge, 0u);
+    vec3 c1 = edge_record_point(edge, 1u);
+    vec3 c2 = edge_record_point(edge, 2u);
+    vec3 c3 = edge_record_point(edge, 3u);
+    vec4 b = bernstein3(t);
+    vec3 tangent = combine_differences(bernstein2(t), c0, c1, c2, c3);
+    vec3 cross_field = combine4(b, edge_record_point(edge, 4u), edge_record_point(edge, 5u), edge_record_point(edge, 6u), edge_record_point(edge, 7u));
+    return SurfacePoint(combine4(b, c0, c1, c2, c3), unit_or_zero(cross_product(tangent, cross_field)));
+}
+
+// The side of the unit square that (u,v) lies on, 0..3 as v=0, u=1, v=1, u=0, or 4 inside. Comparing with 0 and 1 is exact: the
+// tessellator gives exactly these on outer edges.
+uint side_of(vec2 uv) {
+    return uv.y == 0.0 ? 0u : uv.x == 1.0 ? 1u : uv.y == 1.0 ? 2u : uv.x == 0.0 ? 3u : 4u;
+}
+
+// Edge record parameter of coordinate x of a side: u on sides 0 and 2, v on sides 1 and 3. Sides 2 and 3 are walked against x, the
+// flip bit walks once more; 1 - x is exact for tessellation coordinates, and is taken at most once.
+float edge_parameter(uint side, uint flip, float x) {
+    precise float reversed = 1.0 - x;
+    return ((side >> 1u) ^ flip) == 1u ? reversed : x;
+}
+
+// The shared point at (u,v), if (u,v) is on an edge or a corner of the patch.
+bool shared_point(uint patch_id, vec2 uv, out SurfacePoint point) {
+    uint side = side_of(uv);
+    if (side == 4u) {
+        return false;
+    }
+    bool corner = (uv.x == 0.0 || uv.x == 1.0) && (uv.y == 0.0 || uv.y == 1.0);
+    if (corner) {
+        uint k = uv.y == 0.0 ? (uv.x == 0.0 ? 0u : 1u) : (uv.x == 0.0 ? 3u : 2u);
+        point = vertex_record_point(patches[patch_id].vertex[k]);
+    } else {
+        uint edge = patches[patch_id].edge[side];
+        float x = (side & 1u) == 0u ? uv.x : uv.y;
+        point = edge_record_at(edge >> 1u, edge_parameter(side, edge & 1u, x));
+    }
+    return true;
+}
+
+// The point at (u,v): shared where it lies on an edge or corner, from the patch's own evaluation elsewhere.
+SurfacePoint surface_point(uint patch_id, vec2 uv, PatchPoint inner) {
+    SurfacePoint point;
+    if (!shared_point(patch_id, uv, point)) {
+        point = SurfacePoint(inner.position, unit_or_zero(cross_product(inner.du, inner.dv)));
+    }
+    return point;
+}
+
+#endif

@@ -1,0 +1,16 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Pulls the points of a patch list: vertex i of the draw is point i mod net_size of patch i / net_size. The patch id is carried from here
+// because gl_PrimitiveID restarts within a draw on some drivers and between draws on all.
+#include "patch_push.glsl"
+#include "points.glsl"
+#include "nets.glsl"
+
+layout(location = 0) out vec3 point;
+layout(location = 1) out flat uint patch_id;
+
+void main() {
+    uint i = uint(gl_VertexIndex);
+    patch_id = list.first_patch + i / list.net_size;
+    point = load_point(nets[list.net_offset + i]);
+}
