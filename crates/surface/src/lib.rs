@@ -1,1 +1,16 @@
 //! The mathematics of the surfaces: bases, limit masks, Gregory patches and the exact f64 reference evaluator.
+//!
+//! Everything the GPU computes from a patch's control points is a [`Matrix`] times the points of its net; [`net`] says
+//! which nets there are, [`gregory`] generates the matrices.
+
+mod angle;
+pub mod bezier;
+pub mod bspline;
+pub mod gregory;
+pub mod jet;
+pub mod masks;
+pub mod matrix;
+pub mod net;
+
+pub use matrix::Matrix;
+pub use net::NetKind;

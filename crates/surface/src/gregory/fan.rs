@@ -1,0 +1,185 @@
+//! The one-ring of a patch corner in terms of the patch's net, and what Gregory patches read from it.
+
+use crate::angle::turn;
+use crate::masks;
+use crate::matrix::Matrix;
+use crate::net::{NetKind, Point};
+
+/// A row of weights over the points of a net.
+pub(super) type Weights = Vec<f64>;
+
+/// The combination `sum factor * row` of rows of equal length.
+pub(super) fn combine(terms: &[(f64, &Weights)]) -> Weights {
+    let mut out = vec![0.0; terms[0].1.len()];
+    for &(factor, row) in terms {
+        for (o, w) in out.iter_mut().zip(row) {
+            *o += factor * w;
+        }
+    }
+    out
+}
+
+/// A corner of a patch with its ring of edges, counter-clockwise.
+///
+/// Edge i leaves the corner at the angle `i * step` of the tangent plane, with `step` = 2 pi / n around an interior
+/// vertex and pi / k in the k faces of a boundary vertex.
+pub(super) struct Corner {
+    net_size: usize,
+    /// The corner, then edge and face neighbours alternating: E0, F0, E1, ..
+    ring: Vec<Point>,
+    /// Position and tangents over `ring`.
+    mask: Matrix,
+    /// Number of faces.
+    faces: i64,
+    /// Whether the ring ends at a boundary.
+    open: bool,
+    /// The ring edge that is the patch's side towards the next corner.
+    plus: i64,
+}
+
+impl Corner {
+    /// Corner `i` of the patch.
+    pub(super) fn of(kind: NetKind, i: usize) -> Self {
+        match (kind, i) {
+            (NetKind::Interior { valence }, 0) => {
+                Self::at_vertex(kind, masks::interior(valence), valence, false)
+            }
+            (NetKind::Crease { faces, .. }, 0) => {
+                Self::at_vertex(kind, masks::crease(faces), faces, true)
+            }
+            _ => Self::regular(kind, i),
+        }
+    }
+
+    /// Corner 0 of an irregular net: the ring is the net's first points.
+    fn at_vertex(kind: NetKind, mask: Matrix, faces: u32, open: bool) -> Self {
+        let ring = (0..mask.cols()).map(Point::at).collect();
+        Self {
+            net_size: kind.net_size(),
+            ring,
+            mask,
+            faces: i64::from(faces),
+            open,
+            plus: kind.quad(),
+        }
+    }
+
+    /// A corner of valence 4 on the grid, starting with the edge to the next corner.
+    fn regular(kind: NetKind, i: usize) -> Self {
+        let (x, y) = [(0, 0), (1, 0), (1, 1), (0, 1)][i];
+        let (mut dx, mut dy) = [(1, 0), (0, 1), (-1, 0), (0, -1)][i];
+        let mut ring = vec![kind.grid(x, y)];
+        for _ in 0..4 {
+            ring.push(kind.grid(x + dx, y + dy));
+            ring.push(kind.grid(x + dx - dy, y + dy + dx));
+            (dx, dy) = (-dy, dx);
+        }
+        Self {
+            net_size: kind.net_size(),
+            ring,
+            mask: masks::interior(4),
+            faces: 4,
+            open: false,
+            plus: 0,
+        }
+    }
+
+    /// The ring edge towards the next corner of the patch.
+    pub(super) fn plus(&self) -> i64 {
+        self.plus
+    }
+
+    /// The ring edge towards the previous corner of the patch.
+    pub(super) fn minus(&self) -> i64 {
+        self.plus + 1
+    }
+
+    /// Cosine of the angle between neighbouring edges.
+    pub(super) fn cosine(&self) -> f64 {
+        self.direction(1).0
+    }
+
+    /// `(cos, sin)` of the angle of edge i.
+    fn direction(&self, i: i64) -> (f64, f64) {
+        turn(
+            i,
+            if self.open {
+                2 * self.faces
+            } else {
+                self.faces
+            },
+        )
+    }
+
+    /// The limit position.
+    pub(super) fn position(&self) -> Weights {
+        self.expand(0)
+    }
+
+    /// Tangent 0 or 1: see [`masks`].
+    pub(super) fn tangent(&self, which: usize) -> Weights {
+        self.expand(1 + which)
+    }
+
+    /// The point e of edge i: `p + (cos t0 + sin t1) / 3`.
+    pub(super) fn edge_point(&self, i: i64) -> Weights {
+        let (cos, sin) = self.direction(i);
+        combine(&[
+            (1.0, &self.position()),
+            (cos / 3.0, &self.tangent(0)),
+            (sin / 3.0, &self.tangent(1)),
+        ])
+    }
+
+    /// Bezier point 0 of the cross derivative D of edge i walked outwards: `3 (e(i+1) - e(i-1)) / 2`, written without
+    /// the cancellation that many edges would bring.
+    pub(super) fn cross_end(&self, i: i64) -> Weights {
+        let ((cos, sin), step) = (self.direction(i), self.direction(1).1);
+        combine(&[
+            (-step * sin, &self.tangent(0)),
+            (step * cos, &self.tangent(1)),
+        ])
+    }
+
+    /// Bezier point 1 of the cross derivative of edge i walked outwards: r of Loop 2009, `(E(i+1) - E(i-1))/3 +
+    /// (F(i) - F(i-1))/6`, with points beyond a boundary reflected.
+    pub(super) fn cross_inner(&self, i: i64) -> Weights {
+        let mut row = vec![0.0; self.net_size];
+        self.edge(i + 1).add_to(&mut row, 1.0 / 3.0);
+        self.edge(i - 1).add_to(&mut row, -1.0 / 3.0);
+        self.face(i).add_to(&mut row, 1.0 / 6.0);
+        self.face(i - 1).add_to(&mut row, -1.0 / 6.0);
+        row
+    }
+
+    /// Edge neighbour i, reflected in the corner when it is beyond the boundary.
+    fn edge(&self, i: i64) -> Point {
+        let at = |i: i64| &self.ring[1 + 2 * i as usize];
+        match (self.open, i) {
+            (false, _) => at(i.rem_euclid(self.faces)).clone(),
+            (true, -1) => Point::reflected(&self.ring[0], at(1)),
+            (true, _) if i > self.faces => Point::reflected(&self.ring[0], at(self.faces - 1)),
+            (true, _) => at(i).clone(),
+        }
+    }
+
+    /// The far point of the face between edges i and i+1, reflected in the boundary edge when it is beyond it.
+    fn face(&self, i: i64) -> Point {
+        let at = |i: i64| &self.ring[2 + 2 * i as usize];
+        match (self.open, i) {
+            (false, _) => at(i.rem_euclid(self.faces)).clone(),
+            (true, -1) => Point::reflected(&self.edge(0), at(0)),
+            (true, _) if i == self.faces => Point::reflected(&self.edge(i), at(i - 1)),
+            (true, _) => at(i).clone(),
+        }
+    }
+
+    /// A row of the mask as weights over the net.
+    fn expand(&self, row: usize) -> Weights {
+        let mut out = vec![0.0; self.net_size];
+        for (point, &weight) in self.ring.iter().zip(self.mask.row(row)) {
+            point.add_to(&mut out, weight);
+        }
+        out
+    }
+}
