@@ -10,15 +10,8 @@ use std::process::exit;
 
 /// Debian's packages, in the order in which a link needs them: callers before callees.
 /// OGLCompiler and HLSL became part of glslang in version 14 and are absent there.
-const REQUIRED: [&str; 7] = [
-    "glslang",
-    "SPIRV",
-    "MachineIndependent",
-    "GenericCodeGen",
-    "OSDependent",
-    "SPIRV-Tools-opt",
-    "SPIRV-Tools",
-];
+const REQUIRED: [&str; 7] =
+    ["glslang", "SPIRV", "MachineIndependent", "GenericCodeGen", "OSDependent", "SPIRV-Tools-opt", "SPIRV-Tools"];
 const OPTIONAL: [&str; 3] = ["glslang-default-resource-limits", "OGLCompiler", "HLSL"];
 
 fn main() {
@@ -29,16 +22,10 @@ fn main() {
         return;
     }
     let candidates = library_dirs();
-    let Some(dir) = candidates
-        .iter()
-        .find(|dir| has_archive(dir, "shaderc_combined"))
-    else {
+    let Some(dir) = candidates.iter().find(|dir| has_archive(dir, "shaderc_combined")) else {
         fail_without_shaderc(&candidates);
     };
-    println!(
-        "cargo::rerun-if-changed={}",
-        archive(dir, "shaderc_combined").display()
-    );
+    println!("cargo::rerun-if-changed={}", archive(dir, "shaderc_combined").display());
     println!("cargo::rustc-link-search=native={}", dir.display());
     link_archives(dir);
 }
@@ -52,11 +39,7 @@ fn link_archives(dir: &Path) {
     if REQUIRED.iter().any(|name| !has_archive(dir, name)) {
         return;
     }
-    for name in OPTIONAL
-        .iter()
-        .filter(|name| has_archive(dir, name))
-        .chain(&REQUIRED)
-    {
+    for name in OPTIONAL.iter().filter(|name| has_archive(dir, name)).chain(&REQUIRED) {
         println!("cargo::rustc-link-lib=static:+whole-archive={name}");
     }
 }
@@ -92,10 +75,7 @@ fn has_archive(dir: &Path, name: &str) -> bool {
 
 fn fail_without_shaderc(dirs: &[PathBuf]) -> ! {
     let looked: Vec<String> = dirs.iter().map(|dir| dir.display().to_string()).collect();
-    println!(
-        "cargo::error=libshaderc_combined.a was not found in {}",
-        looked.join(", ")
-    );
+    println!("cargo::error=libshaderc_combined.a was not found in {}", looked.join(", "));
     println!(
         "cargo::error=on Debian or Ubuntu: run tools/setup.sh, or apt-get install libshaderc-dev glslang-dev spirv-tools g++"
     );

@@ -7,9 +7,7 @@ use std::fmt;
 #[non_exhaustive]
 pub enum CompileError {
     /// The file name does not say which stage the source is for.
-    #[error(
-        "{name}: unknown shader stage; the file name must end in .vert, .tesc, .tese, .frag or .comp"
-    )]
+    #[error("{name}: unknown shader stage; the file name must end in .vert, .tesc, .tese, .frag or .comp")]
     UnknownStage {
         /// Name of the source.
         name: String,
@@ -62,16 +60,8 @@ fn join(diagnostics: &[Diagnostic]) -> String {
 
 /// Reads `file:line: error: message` or `file: error: message`; other lines (counts, blank lines) give nothing.
 fn parse_line(text: &str) -> Option<Diagnostic> {
-    let (place, message) = [": error: ", ": warning: "]
-        .iter()
-        .find_map(|mark| text.split_once(mark))?;
-    let numbered = place
-        .rsplit_once(':')
-        .and_then(|(file, line)| Some((file, line.parse().ok()?)));
+    let (place, message) = [": error: ", ": warning: "].iter().find_map(|mark| text.split_once(mark))?;
+    let numbered = place.rsplit_once(':').and_then(|(file, line)| Some((file, line.parse().ok()?)));
     let (file, line) = numbered.map_or((place, None), |(file, line)| (file, Some(line)));
-    Some(Diagnostic {
-        file: file.to_owned(),
-        line,
-        message: message.to_owned(),
-    })
+    Some(Diagnostic { file: file.to_owned(), line, message: message.to_owned() })
 }

@@ -31,12 +31,7 @@ pub(crate) struct Resolver<'a> {
 
 impl<'a> Resolver<'a> {
     pub(crate) fn new(dirs: &'a [&'a str], load: &'a dyn Fn(&str) -> Option<String>) -> Self {
-        Self {
-            dirs,
-            load,
-            loaded: RefCell::default(),
-            missed: RefCell::default(),
-        }
+        Self { dirs, load, loaded: RefCell::default(), missed: RefCell::default() }
     }
 
     /// Paths of all files loaded so far, sorted.
@@ -45,17 +40,9 @@ impl<'a> Resolver<'a> {
     }
 
     /// Answers one `#include` line: `"wanted"` is looked for beside the including file `from` first, `<wanted>` is not.
-    pub(crate) fn resolve(
-        &self,
-        wanted: &str,
-        kind: IncludeType,
-        from: &str,
-        depth: usize,
-    ) -> IncludeCallbackResult {
+    pub(crate) fn resolve(&self, wanted: &str, kind: IncludeType, from: &str, depth: usize) -> IncludeCallbackResult {
         if depth > MAX_DEPTH {
-            return Err(format!(
-                "includes nested more than {MAX_DEPTH} deep; does '{wanted}' include itself?"
-            ));
+            return Err(format!("includes nested more than {MAX_DEPTH} deep; does '{wanted}' include itself?"));
         }
         let candidates = self.candidates(wanted, kind, from);
         for path in &candidates {
@@ -67,20 +54,14 @@ impl<'a> Resolver<'a> {
                 return Err(format!("'{path}' holds a NUL character"));
             }
             self.loaded.borrow_mut().insert(path.clone());
-            return Ok(ResolvedInclude {
-                resolved_name: path.clone(),
-                content,
-            });
+            return Ok(ResolvedInclude { resolved_name: path.clone(), content });
         }
         Err(self.not_found(candidates, kind))
     }
 
     fn not_found(&self, candidates: Vec<String>, kind: IncludeType) -> String {
         let mut tried = self.missed.take();
-        let new: Vec<_> = candidates
-            .into_iter()
-            .filter(|path| !tried.contains(path))
-            .collect();
+        let new: Vec<_> = candidates.into_iter().filter(|path| !tried.contains(path)).collect();
         tried.extend(new);
         let message = format!("no such file (looked for {})", tried.join(", "));
         if kind == IncludeType::Relative {

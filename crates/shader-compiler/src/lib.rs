@@ -1,9 +1,10 @@
 //! GLSL to SPIR-V through shaderc, with includes and errors that name file and line.
 //!
 //! Sources are named by paths relative to one root, with `/` between components (`patch/regular.tese`); where their text
-//! comes from is the caller's choice (a folder at build time, embedded text in tests). The target is Vulkan 1.3 with
-//! SPIR-V 1.6, so devices need `maintenance4` (glslang emits `LocalSizeId`). Nothing is optimised here: the optimiser is
-//! free to reassociate, and the proof that shared edges agree rests on `precise` arithmetic reaching the driver as written.
+//! comes from is the caller's choice (a folder at build time, embedded text in tests). The target is Vulkan 1.3 with SPIR-V
+//! 1.5, the last version whose workgroup sizes need neither `maintenance4` nor a reader that knows `LocalSizeId`. Nothing is
+//! optimised here: the optimiser is free to reassociate, and the proof that shared edges agree rests on `precise`
+//! arithmetic reaching the driver as written.
 
 mod error;
 mod include;
@@ -36,14 +37,7 @@ pub struct CompileDesc<'a> {
 impl<'a> CompileDesc<'a> {
     /// A source without includes, macros or debug information.
     pub fn new(name: &'a str, source: &'a str) -> Self {
-        Self {
-            name,
-            source,
-            include_dirs: &[],
-            load: &|_| None,
-            defines: &[],
-            debug_info: false,
-        }
+        Self { name, source, include_dirs: &[], load: &|_| None, defines: &[], debug_info: false }
     }
 }
 
@@ -74,13 +68,10 @@ pub fn list_includes(desc: &CompileDesc) -> Result<Vec<String>, CompileError> {
     Ok(resolver.loaded())
 }
 
-fn options<'a>(
-    desc: &CompileDesc,
-    resolver: &'a Resolver,
-) -> Result<CompileOptions<'a>, CompileError> {
+fn options<'a>(desc: &CompileDesc, resolver: &'a Resolver) -> Result<CompileOptions<'a>, CompileError> {
     let mut options = CompileOptions::new().map_err(CompileError::from_shaderc)?;
     options.set_target_env(TargetEnv::Vulkan, EnvVersion::Vulkan1_3 as u32);
-    options.set_target_spirv(SpirvVersion::V1_6);
+    options.set_target_spirv(SpirvVersion::V1_5);
     options.set_optimization_level(OptimizationLevel::Zero);
     options.set_warnings_as_errors();
     if desc.debug_info {
@@ -89,9 +80,7 @@ fn options<'a>(
     for (name, value) in desc.defines {
         options.add_macro_definition(name, *value);
     }
-    options.set_include_callback(|wanted, kind, from, depth| {
-        resolver.resolve(wanted, kind, from, depth)
-    });
+    options.set_include_callback(|wanted, kind, from, depth| resolver.resolve(wanted, kind, from, depth));
     Ok(options)
 }
 

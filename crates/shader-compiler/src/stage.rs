@@ -35,9 +35,7 @@ impl Stage {
             .iter()
             .find(|(known, _)| *known == extension)
             .map(|&(_, stage)| stage)
-            .ok_or_else(|| CompileError::UnknownStage {
-                name: path.to_owned(),
-            })
+            .ok_or_else(|| CompileError::UnknownStage { name: path.to_owned() })
     }
 
     pub(crate) fn kind(self) -> ShaderKind {

@@ -1,0 +1,106 @@
+//! Structs that host and shaders share, byte for byte.
+//!
+//! Each is declared once here and once in GLSL under the same name, with the same field names. `tests/layout.rs` compares their
+//! offsets with the offset decorations of the compiled shaders, so a struct that drifts fails a test.
+
+use bytemuck::{Pod, Zeroable};
+
+/// How the host lays a shared struct out.
+pub trait Layout {
+    /// Name of the struct or block in GLSL.
+    const NAME: &'static str;
+    /// Name and byte offset of every field, in order. Names that start with `padding` need no counterpart in GLSL.
+    const FIELDS: &'static [(&'static str, usize)];
+    /// Size in bytes: the stride of an array of it.
+    const SIZE: usize;
+}
+
+/// The constants of a [`Layout`], for iterating over all of them.
+#[derive(Debug, Clone, Copy)]
+pub struct StructLayout {
+    /// [`Layout::NAME`]
+    pub name: &'static str,
+    /// [`Layout::FIELDS`]
+    pub fields: &'static [(&'static str, usize)],
+    /// [`Layout::SIZE`]
+    pub size: usize,
+}
+
+impl StructLayout {
+    /// The layout of `T`.
+    pub const fn of<T: Layout>() -> Self {
+        Self { name: T::NAME, fields: T::FIELDS, size: T::SIZE }
+    }
+}
+
+/// Declares shared structs: each becomes `#[repr(C)]` and `Pod` (which rules out padding that the compiler would add), implements
+/// [`Layout`], and is listed in [`LAYOUTS`] so that the test cannot miss it.
+macro_rules! shared_structs {
+    ($(
+        $(#[$attribute:meta])*
+        pub struct $name:ident {
+            $($(#[$field_attribute:meta])* pub $field:ident: $type:ty,)*
+        }
+    )*) => {
+        $(
+            $(#[$attribute])*
+            #[repr(C)]
+            #[derive(Debug, Clone, Copy, PartialEq, Pod, Zeroable)]
+            pub struct $name {
+                $($(#[$field_attribute])* pub $field: $type,)*
+            }
+
+            impl Layout for $name {
+                const NAME: &'static str = stringify!($name);
+                const FIELDS: &'static [(&'static str, usize)] =
+                    &[$((stringify!($field), std::mem::offset_of!($name, $field)),)*];
+                const SIZE: usize = size_of::<$name>();
+            }
+        )*
+
+        /// Every shared struct.
+        pub const LAYOUTS: &[StructLayout] = &[$(StructLayout::of::<$name>(),)*];
+    };
+}
+
+shared_structs! {
+    /// What changes from frame to frame: camera, tessellation and shading (`shaders/include/frame.glsl`).
+    pub struct Frame {
+        /// Clip space from cage space, by columns.
+        pub clip_from_cage: [[f32; 4]; 4],
+        /// View space from cage space, by columns.
+        pub view_from_cage: [[f32; 4]; 4],
+        /// Eye in cage space; w unused.
+        pub eye: [f32; 4],
+        /// Uniform tessellation factor of a patch edge.
+        pub level: f32,
+        /// Adaptive factors: segments of an edge of unit length at unit distance.
+        pub segments_per_length: f32,
+        /// How factors are chosen: a `FACTORS_*` constant.
+        pub factor_mode: u32,
+        /// What the fragment stage shows: a `SHADE_*` constant.
+        pub shade: u32,
+        /// Length in cage space whose inverse saturates the curvature colours.
+        pub curvature_length: f32,
+        /// Smallest distance from the eye that adaptive factors tell apart.
+        pub near: f32,
+        /// Zero.
+        pub padding0: u32,
+        /// Zero.
+        pub padding1: u32,
+        /// Line colour of wireframe and cage overlay, linear RGBA.
+        pub line_color: [f32; 4],
+    }
+
+    /// The part of a patch list that one draw renders (`shaders/include/patch_push.glsl`).
+    pub struct PatchPush {
+        /// First index of the list's nets in the net buffer.
+        pub net_offset: u32,
+        /// Points of a net; 1 for lists that read coefficients.
+        pub net_size: u32,
+        /// Global id of the list's first patch.
+        pub first_patch: u32,
+        /// First weight of the list's change of basis.
+        pub weights: u32,
+    }
+}
