@@ -11,6 +11,7 @@ pub mod jet;
 pub mod masks;
 pub mod matrix;
 pub mod net;
+pub mod reference;
 
 pub use matrix::Matrix;
 pub use net::NetKind;
