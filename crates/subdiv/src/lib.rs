@@ -1,1 +1,27 @@
-//! Refinement tables and patch plans of a cage.
+//! Refinement tables and patch plans of a cage: everything that depends on connectivity alone, computed once on the host.
+//!
+//! [`SurfacePlan::build`] takes a cage through one or two Catmull-Clark steps (only their connectivity; points move on the device), then classifies
+//! the final quads into patches whose nets the shaders evaluate. The scheme of tables is that of Loop, *Hardware Subdivision and Tessellation of
+//! Catmull-Clark Surfaces*, MSR-TR-2010-163, section 3.1 ("the report"). Conventions of nets, sides and corners: ARCHITECTURE.md.
+
+mod connectivity;
+mod error;
+mod location;
+mod nets;
+mod patches;
+mod plan;
+mod records;
+mod tables;
+pub mod twin;
+mod weights;
+
+pub use connectivity::{Connectivity, QuadConnectivity};
+pub use error::PlanError;
+pub use location::{Locator, PatchLocation, SubFace};
+pub use patches::{PatchKind, PatchList, PatchRecord};
+pub use plan::{PlanDesc, SurfacePlan};
+pub use records::MatrixSource;
+pub use tables::RefineTables;
+
+/// "No such element": a missing twin, a face without patch.
+pub const NONE: u32 = u32::MAX;

@@ -1,0 +1,23 @@
+/// Why a cage cannot become a plan.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PlanError {
+    /// The refined mesh has more elements than 32-bit indices can name.
+    #[error("the cage is too large: {what} would number {count}, the limit is {limit}; split the cage into parts")]
+    TooLarge {
+        /// The kind of element.
+        what: &'static str,
+        /// How many there would be.
+        count: u64,
+        /// How many are possible.
+        limit: u64,
+    },
+    /// Nothing is left to draw.
+    #[error(
+        "no face is left to draw: all {faces} faces are holes or touch the boundary under the boundary rule `none`; use --boundary edge-and-corner"
+    )]
+    NothingToDraw {
+        /// Faces of the cage.
+        faces: usize,
+    },
+}
