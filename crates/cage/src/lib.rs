@@ -1,1 +1,28 @@
 //! Control cages: reading OBJ and glTF, validation, topology.
+//!
+//! A [`Cage`] is valid by construction: a closed or open, oriented, manifold mesh of polygons with finite positions. Whatever a file holds, reading it ends in a cage or in
+//! an error that names the file, the line or the elements at fault; nothing after this crate has to check again.
+//!
+//! Vertices, faces and half-edges are numbered from 0. The index of a face is the index of its `f` line in the file.
+
+mod bounds;
+mod cage;
+mod error;
+mod listed;
+mod obj;
+mod read;
+mod tags;
+mod topology;
+mod warning;
+
+pub use bounds::Bounds;
+pub use cage::{Cage, CageDesc, FaceSet, FaceSetKind, FaceVarying};
+pub use error::{CageError, ReadError};
+pub use listed::Listed;
+pub use obj::{ObjError, read_obj};
+pub use tags::{BoundaryRule, Corner, Crease, CreaseMethod, TagError, Tags};
+pub use topology::{EdgeFaces, FaceCorner, Fans, Ring, Topology, TopologyError};
+pub use warning::Warning;
+
+/// The index that means "none": the twin of a boundary half-edge, the half-edge of a vertex without faces.
+pub const NONE: u32 = u32::MAX;

@@ -1,0 +1,98 @@
+//! What can go wrong between a file and a cage.
+
+use std::path::PathBuf;
+
+use crate::{Listed, ObjError, TagError, TopologyError};
+
+/// Why a [`CageDesc`](crate::CageDesc) is not a cage. Indices count from 0.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CageError {
+    /// There is nothing to subdivide.
+    #[error("no faces; a cage has at least one")]
+    NoFaces,
+    /// Coordinates that are infinite or not a number.
+    #[error("{counted} with coordinates that are not finite: {0}", counted = .0.count("vertex"))]
+    NotFinite(Listed<u32>),
+    /// The box of the cage is so large that squared lengths leave 32-bit floats.
+    #[error("the cage is {size:e} across, at most {limit:e} can be drawn; scale it down", limit = crate::Cage::MAX_SIZE)]
+    TooLarge {
+        /// The diagonal of the box.
+        size: f64,
+    },
+    /// The faces are not a manifold mesh.
+    #[error(transparent)]
+    Topology(#[from] TopologyError),
+    /// A tag names something that does not exist.
+    #[error(transparent)]
+    Tag(#[from] TagError),
+    /// The uv do not have one index per face corner.
+    #[error("{indices} uv indices for {corners} face corners; there must be one for each")]
+    UvCount {
+        /// The number of uv indices.
+        indices: usize,
+        /// The number of face corners.
+        corners: usize,
+    },
+    /// Uv indices beyond the uv values.
+    #[error("{} with a missing uv: {corners}; the uv are 0..{values}", .corners.count("face corner"))]
+    MissingUv {
+        /// The corners.
+        corners: Listed<u32>,
+        /// How many uv values there are.
+        values: usize,
+    },
+    /// Uv that are infinite or not a number.
+    #[error("{counted} not finite: {0}", counted = .0.count("uv"))]
+    UvNotFinite(Listed<u32>),
+    /// The ranges of a face set are empty, do not rise, touch, or leave the faces there are.
+    #[error("face set {name:?} has the range {range:?}; ranges must rise without touching within 0..{faces}")]
+    FaceSet {
+        /// The name of the set.
+        name: String,
+        /// The first range at fault.
+        range: std::ops::Range<u32>,
+        /// How many faces there are.
+        faces: usize,
+    },
+}
+
+/// Why a file could not be read as a cage. Messages are one line that starts with the file.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReadError {
+    /// The file cannot be read at all.
+    #[error("{}: {error}", .file.display())]
+    Io {
+        /// The file.
+        file: PathBuf,
+        /// What the system says.
+        error: std::io::Error,
+    },
+    /// The name of the file ends in nothing we know.
+    #[error("{}: unknown kind of file; the name must end in .obj, .gltf or .glb", .file.display())]
+    UnknownFormat {
+        /// The file.
+        file: PathBuf,
+    },
+    /// A line of an OBJ file is malformed.
+    #[error("{file}:{line}: {error}")]
+    Obj {
+        /// The name of the file.
+        file: String,
+        /// The line, from 1.
+        line: u32,
+        /// What is wrong with it.
+        error: ObjError,
+    },
+    /// The file is well formed but what it holds is not a cage.
+    #[error("{file}{}: {error} (elements count from 0)", .line.map(|line| format!(":{line}")).unwrap_or_default())]
+    Refused {
+        /// The name of the file.
+        file: String,
+        /// The line of the first element at fault, from 1, where one is known.
+        line: Option<u32>,
+        /// What is wrong.
+        error: CageError,
+    },
+}

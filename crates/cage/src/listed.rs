@@ -1,0 +1,111 @@
+//! The first few of many elements, for messages that stay readable whatever the size of the mesh.
+
+use std::fmt;
+
+/// The first [`Listed::SHOWN`] elements of a collection and how many there were.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Listed<T> {
+    first: Vec<T>,
+    total: usize,
+}
+
+impl<T> Listed<T> {
+    /// How many elements are kept.
+    pub const SHOWN: usize = 4;
+
+    /// The elements that are kept, in order.
+    #[must_use]
+    pub fn first(&self) -> &[T] {
+        &self.first
+    }
+
+    /// How many elements there were.
+    #[must_use]
+    pub fn total(&self) -> usize {
+        self.total
+    }
+
+    /// True if there was no element.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.total == 0
+    }
+
+    /// Adds an element; only the first few are kept.
+    pub fn push(&mut self, item: T) {
+        if self.first.len() < Self::SHOWN {
+            self.first.push(item);
+        }
+        self.total += 1;
+    }
+
+    /// The number of elements with the noun for it: `1 edge`, `7 edges`.
+    pub(crate) fn count(&self, noun: &str) -> String {
+        count(self.total, noun)
+    }
+}
+
+impl<T> Default for Listed<T> {
+    fn default() -> Self {
+        Self { first: Vec::new(), total: 0 }
+    }
+}
+
+impl<T> FromIterator<T> for Listed<T> {
+    fn from_iter<I: IntoIterator<Item = T>>(items: I) -> Self {
+        let mut listed = Self::default();
+        items.into_iter().for_each(|item| listed.push(item));
+        listed
+    }
+}
+
+impl<T: fmt::Display> fmt::Display for Listed<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, item) in self.first.iter().enumerate() {
+            let separator = if i == 0 { "" } else { ", " };
+            write!(f, "{separator}{item}")?;
+        }
+        match self.total - self.first.len() {
+            0 => Ok(()),
+            more => write!(f, " and {more} more"),
+        }
+    }
+}
+
+/// `1 vertex`, `2 vertices`, `3 faces`: a count with its noun.
+pub(crate) fn count(n: usize, noun: &str) -> String {
+    match n {
+        1 => format!("1 {noun}"),
+        _ => match noun.strip_suffix("vertex") {
+            Some(kind) => format!("{n} {kind}vertices"),
+            None => format!("{n} {noun}s"),
+        },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn few_are_all_shown() {
+        let listed: Listed<u32> = [3, 5].into_iter().collect();
+        assert_eq!(listed.to_string(), "3, 5");
+        assert_eq!(listed.total(), 2);
+    }
+
+    #[test]
+    fn many_are_cut() {
+        let listed: Listed<u32> = (0..10).collect();
+        assert_eq!(listed.to_string(), "0, 1, 2, 3 and 6 more");
+        assert_eq!(listed.first(), [0, 1, 2, 3]);
+        assert_eq!(listed.count("vertex"), "10 vertices");
+    }
+
+    #[test]
+    fn counts_agree_with_their_nouns() {
+        assert_eq!(count(1, "vertex"), "1 vertex");
+        assert_eq!(count(0, "edge"), "0 edges");
+        assert_eq!(count(2, "unused vertex"), "2 unused vertices");
+    }
+}

@@ -1,0 +1,152 @@
+//! The statements of an OBJ file, one after the other.
+
+use glam::{DVec2, DVec3};
+
+use super::face::{Corner, Counts, corner};
+use super::ignored::{Ignored, reason};
+use super::lines::Lines;
+use super::numbers::{numbers, words};
+use super::sets::Sets;
+use super::{ObjError, tags};
+use crate::{CageDesc, FaceSetKind, FaceVarying, NONE, Tags, Warning};
+
+/// What a text holds, and where.
+pub(super) struct Parsed {
+    pub(super) desc: CageDesc,
+    pub(super) lines: SourceLines,
+}
+
+/// The lines of elements, from 1, for messages about the mesh as a whole.
+#[derive(Default)]
+pub(super) struct SourceLines {
+    pub(super) faces: Vec<u32>,
+    pub(super) creases: Vec<u32>,
+    pub(super) corners: Vec<u32>,
+    pub(super) holes: Vec<u32>,
+}
+
+/// An error and its line.
+type AtLine<T> = Result<T, (u32, ObjError)>;
+
+pub(super) fn parse(text: &[u8]) -> AtLine<Parsed> {
+    let mut reader = Reader { face_offsets: vec![0], ..Reader::default() };
+    for (number, line) in Lines::new(text) {
+        reader.statement(&line, number).map_err(|error| (number, error))?;
+    }
+    reader.finish()
+}
+
+#[derive(Default)]
+struct Reader {
+    positions: Vec<DVec3>,
+    uv_values: Vec<DVec2>,
+    face_offsets: Vec<u32>,
+    face_vertices: Vec<u32>,
+    /// One per face corner, [`NONE`] where there is none.
+    uv_indices: Vec<u32>,
+    tags: Tags,
+    sets: Sets,
+    ignored: Ignored,
+    lines: SourceLines,
+}
+
+impl Reader {
+    fn statement(&mut self, line: &[u8], at: u32) -> Result<(), ObjError> {
+        let mut words = words(line);
+        let Some(name) = words.next() else { return Ok(()) };
+        match name {
+            b"v" => self.positions.push(DVec3::from_array(numbers("v", 3, words)?)),
+            b"vt" => self.uv_values.push(DVec2::from_array(numbers("vt", 1, words)?)),
+            // `fo` is how version 2 of the format wrote `f`.
+            b"f" | b"fo" => self.face(words, at)?,
+            b"g" => self.switch(FaceSetKind::Group, words.map(text)),
+            b"o" => self.switch(FaceSetKind::Object, rest(line, name).into_iter()),
+            b"usemtl" => self.switch(FaceSetKind::Material, rest(line, name).into_iter()),
+            b"t" => self.tag(&words.collect::<Vec<_>>(), at)?,
+            _ => {
+                if let Some(reason) = reason(name) {
+                    self.ignored.push(name, reason, at);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn face<'a>(&mut self, words: impl Iterator<Item = &'a [u8]>, at: u32) -> Result<(), ObjError> {
+        let counts = Counts { vertices: self.positions.len(), uv: self.uv_values.len() };
+        let start = self.face_vertices.len();
+        for word in words {
+            let Corner { vertex, uv } = corner(word, counts)?;
+            self.face_vertices.push(vertex);
+            self.uv_indices.push(uv);
+        }
+        let end = self.face_vertices.len();
+        if end - start < 3 {
+            return Err(ObjError::TooFewCorners(end - start));
+        }
+        let end = u32::try_from(end).ok().filter(|&end| end != NONE).ok_or(ObjError::TooMany("face corners"))?;
+        self.face_offsets.push(end);
+        self.lines.faces.push(at);
+        Ok(())
+    }
+
+    fn tag(&mut self, words: &[&[u8]], at: u32) -> Result<(), ObjError> {
+        if let Some(unknown) = tags::parse(words, at, &mut self.tags, &mut self.lines)? {
+            self.ignored.push(&[b"t ", unknown].concat(), "unknown tag", at);
+        }
+        Ok(())
+    }
+
+    fn switch(&mut self, kind: FaceSetKind, names: impl Iterator<Item = String>) {
+        self.sets.switch(kind, names, self.lines.faces.len() as u32);
+    }
+
+    fn finish(mut self) -> AtLine<Parsed> {
+        self.check_range("vertex", &self.face_vertices, self.positions.len())?;
+        self.check_range("uv", &self.uv_indices, self.uv_values.len())?;
+        let mut warnings = std::mem::take(&mut self.ignored).into_warnings();
+        let uv = self.uv(&mut warnings);
+        let desc = CageDesc {
+            positions: self.positions,
+            face_sets: self.sets.finish(self.lines.faces.len() as u32),
+            face_offsets: self.face_offsets,
+            face_vertices: self.face_vertices,
+            uv,
+            tags: self.tags,
+            warnings,
+        };
+        Ok(Parsed { desc, lines: self.lines })
+    }
+
+    /// Indices may run forward, so the upper end is checked last.
+    fn check_range(&self, what: &'static str, indices: &[u32], count: usize) -> AtLine<()> {
+        let Some(corner) = indices.iter().position(|&i| i as usize >= count && i != NONE) else { return Ok(()) };
+        let face = self.face_offsets.partition_point(|&offset| offset as usize <= corner) - 1;
+        let index = i64::from(indices[corner]) + 1;
+        Err((self.lines.faces[face], ObjError::OutOfRange { what, index, count }))
+    }
+
+    fn uv(&mut self, warnings: &mut Vec<Warning>) -> Option<FaceVarying> {
+        let mut uv =
+            FaceVarying { values: std::mem::take(&mut self.uv_values), indices: std::mem::take(&mut self.uv_indices) };
+        if uv.indices.iter().all(|&i| i == NONE) {
+            return None;
+        }
+        let missing = uv.fill(NONE, &self.face_offsets);
+        if missing > 0 {
+            warnings.push(Warning::MissingUv(missing));
+        }
+        Some(uv)
+    }
+}
+
+/// Names may be in any encoding.
+fn text(word: &[u8]) -> String {
+    String::from_utf8_lossy(word).into_owned()
+}
+
+/// Everything after the first word: names of objects and materials may have blanks.
+fn rest(line: &[u8], name: &[u8]) -> Option<String> {
+    let rest = line.trim_ascii_start()[name.len()..].trim_ascii();
+    (!rest.is_empty()).then(|| text(rest))
+}
