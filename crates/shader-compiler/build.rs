@@ -4,15 +4,25 @@
 //! `libshaderc.so` whose own dependencies are missing, so `shaderc-sys` alone does not link against either. This
 //! script adds the archives that hold the missing symbols. With the feature `build-from-source` there is nothing to add.
 
-use std::env;
 use std::path::{Path, PathBuf};
 use std::process::exit;
+use std::{env, fs};
 
-/// Debian's packages, in the order in which a link needs them: callers before callees.
-/// OGLCompiler and HLSL became part of glslang in version 14 and are absent there.
-const REQUIRED: [&str; 7] =
-    ["glslang", "SPIRV", "MachineIndependent", "GenericCodeGen", "OSDependent", "SPIRV-Tools-opt", "SPIRV-Tools"];
-const OPTIONAL: [&str; 3] = ["glslang-default-resource-limits", "OGLCompiler", "HLSL"];
+/// The archives, as far as a release has them: OGLCompiler and HLSL went with glslang 14, others were merged into `libglslang.a` later.
+const ARCHIVES: [&str; 10] = [
+    "glslang",
+    "glslang-default-resource-limits",
+    "SPIRV",
+    "MachineIndependent",
+    "GenericCodeGen",
+    "OSDependent",
+    "OGLCompiler",
+    "HLSL",
+    "SPIRV-Tools-opt",
+    "SPIRV-Tools",
+];
+/// Without these two no release links.
+const REQUIRED: [&str; 2] = ["glslang", "SPIRV-Tools-opt"];
 
 fn main() {
     println!("cargo::rerun-if-changed=build.rs");
@@ -21,25 +31,32 @@ fn main() {
     if env::var_os("CARGO_FEATURE_BUILD_FROM_SOURCE").is_some() {
         return;
     }
-    let candidates = library_dirs();
-    let Some(dir) = candidates.iter().find(|dir| has_archive(dir, "shaderc_combined")) else {
-        fail_without_shaderc(&candidates);
+    let dirs = library_dirs();
+    let Some(dir) = dirs.iter().find(|dir| has_archive(dir, "shaderc_combined")) else {
+        fail("libshaderc_combined.a", &dirs);
     };
-    println!("cargo::rerun-if-changed={}", archive(dir, "shaderc_combined").display());
     println!("cargo::rustc-link-search=native={}", dir.display());
-    link_archives(dir);
+    println!("cargo::rerun-if-changed={}", archive(dir, "shaderc_combined").display());
+    if !holds_glslang(&archive(dir, "shaderc_combined")) {
+        link_archives(dir);
+    }
 }
 
-/// Emits the archives around `libshaderc_combined.a` in `dir`.
+/// Whether the archive really is combined, as in the Vulkan SDK: then it has glslang's main source file as a member.
+fn holds_glslang(archive: &Path) -> bool {
+    const MEMBER: &[u8] = b"ShaderLang.cpp";
+    fs::read(archive).is_ok_and(|bytes| bytes.windows(MEMBER.len()).any(|window| window == MEMBER))
+}
+
+/// Emits the archives that `libshaderc_combined.a` in `dir` calls.
 ///
 /// They are linked whole: the crate that calls into them, `shaderc-sys`, comes after this one on the linker's command line, and
 /// a linker that reads archives strictly in order (GNU ld) would have dropped them by then.
 fn link_archives(dir: &Path) {
-    // An archive that really is combined (Vulkan SDK, other distributions) stands alone.
-    if REQUIRED.iter().any(|name| !has_archive(dir, name)) {
-        return;
+    if let Some(missing) = REQUIRED.iter().find(|name| !has_archive(dir, name)) {
+        fail(&format!("lib{missing}.a"), &[dir.to_owned()]);
     }
-    for name in OPTIONAL.iter().filter(|name| has_archive(dir, name)).chain(&REQUIRED) {
+    for name in ARCHIVES.iter().filter(|name| has_archive(dir, name)) {
         println!("cargo::rustc-link-lib=static:+whole-archive={name}");
     }
 }
@@ -73,14 +90,15 @@ fn has_archive(dir: &Path, name: &str) -> bool {
     archive(dir, name).is_file()
 }
 
-fn fail_without_shaderc(dirs: &[PathBuf]) -> ! {
+fn fail(missing: &str, dirs: &[PathBuf]) -> ! {
     let looked: Vec<String> = dirs.iter().map(|dir| dir.display().to_string()).collect();
-    println!("cargo::error=libshaderc_combined.a was not found in {}", looked.join(", "));
+    println!("cargo::error={missing} was not found in {}", looked.join(", "));
     println!(
-        "cargo::error=on Debian or Ubuntu: run tools/setup.sh, or apt-get install libshaderc-dev glslang-dev spirv-tools g++"
+        "cargo::error=on Debian or Ubuntu run tools/setup.sh, or install libshaderc-dev glslang-dev spirv-tools g++"
     );
     println!(
-        "cargo::error=elsewhere: install the Vulkan SDK and set VULKAN_SDK, or build with --features osculate-shader-compiler/build-from-source"
+        "cargo::error=elsewhere install the Vulkan SDK and set VULKAN_SDK, or enable the feature \
+         osculate-shader-compiler/build-from-source"
     );
     exit(1);
 }

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Installs what is missing, then runs every test. With OSCULATE_REFERENCE set to a folder of reference data, the tests that
+# compare with it run too. Arguments go to `cargo test`.
+set -euo pipefail
+. "$(dirname "$0")/common.sh"
+
+tools/setup.sh --tests
+find_cargo
+
+# A machine without a device fails the tests instead of skipping them.
+export OSCULATE_REQUIRE_DEVICE=1
+
+# Compiled shaders of the software driver: keeping them saves most of a second run.
+export MESA_SHADER_CACHE_DIR="${MESA_SHADER_CACHE_DIR:-${CARGO_TARGET_DIR:-$PWD/target}/mesa-shader-cache}"
+mkdir -p "$MESA_SHADER_CACHE_DIR"
+
+# Without a GPU, name Mesa's software driver, so that the loader does not try the drivers of absent hardware.
+if [ -z "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ] && ! compgen -G '/dev/dri/renderD*' >/dev/null \
+    && ! compgen -G '/dev/nvidia[0-9]*' >/dev/null; then
+    manifest=$(compgen -G '/usr/share/vulkan/icd.d/lvp_icd*.json' | head -n 1)
+    export VK_DRIVER_FILES="$manifest" VK_ICD_FILENAMES="$manifest"
+fi
+
+if [ -n "${OSCULATE_REFERENCE:-}" ]; then
+    [ -d "$OSCULATE_REFERENCE" ] || fail "OSCULATE_REFERENCE is not a folder: $OSCULATE_REFERENCE"
+    cargo test --workspace --locked "$@" -- --include-ignored
+else
+    cargo test --workspace --locked "$@"
+fi
