@@ -9,7 +9,7 @@ use crate::tables::is_corner;
 use crate::{Connectivity, QuadConnectivity};
 
 /// The valences whose nets fit the 32 points of a patch list (the report, section 4).
-pub const LIST_VALENCES: std::ops::RangeInclusive<u32> = 3..=12;
+pub(crate) const LIST_VALENCES: std::ops::RangeInclusive<u32> = 3..=12;
 
 /// How a patch is evaluated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]

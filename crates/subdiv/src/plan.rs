@@ -8,8 +8,8 @@ use crate::patches::{QuadClass, classify};
 use crate::records::{PatchNet, RecordSources, assign};
 use crate::weights::{Role, WeightTable};
 use crate::{
-    Connectivity, Locator, MatrixSource, NONE, PatchKind, PatchList, PatchRecord, PlanError,
-    QuadConnectivity, RefineTables,
+    Connectivity, Locator, MatrixSource, NONE, PatchKind, PatchList, PatchRecord, PlanError, QuadConnectivity,
+    RefineTables,
 };
 
 /// How to plan a cage.

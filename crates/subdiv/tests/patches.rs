@@ -1,0 +1,165 @@
+//! Patches, records and locations of plans.
+
+use glam::{DVec3, Vec3};
+use osculate_cage::{BoundaryRule, Cage};
+use osculate_subdiv::{NONE, PatchKind, PlanDesc, PlanError, SurfacePlan, twin};
+
+mod common;
+
+const RULES: [BoundaryRule; 3] = [BoundaryRule::EdgeAndCorner, BoundaryRule::EdgeOnly, BoundaryRule::None];
+
+fn plans() -> Vec<(String, Cage, SurfacePlan)> {
+    let mut plans = Vec::new();
+    for rule in RULES {
+        for (name, cage) in common::zoo() {
+            match SurfacePlan::build(&cage, &PlanDesc { boundary: Some(rule) }) {
+                Ok(plan) => plans.push((format!("{name}, {rule:?}"), cage, plan)),
+                Err(PlanError::NothingToDraw { .. }) if rule == BoundaryRule::None => {}
+                Err(error) => panic!("{name}: {error}"),
+            }
+        }
+    }
+    plans
+}
+
+#[test]
+fn every_drawn_quad_is_exactly_one_patch() {
+    for (name, cage, plan) in plans() {
+        let mut seen = vec![0; plan.patch_of_quad.len()];
+        for (patch, &quad) in plan.quads.iter().enumerate() {
+            seen[quad as usize] += 1;
+            assert_eq!(plan.patch_of_quad[quad as usize], patch as u32, "{name}");
+        }
+        for (quad, &patch) in plan.patch_of_quad.iter().enumerate() {
+            assert_eq!(seen[quad], u32::from(patch != NONE), "{name}: quad {quad}");
+            let face = plan.locator.base_face(quad as u32) as usize;
+            let touches = cage.face(face).iter().any(|&v| cage.topology().is_boundary_vertex(v));
+            assert_eq!(patch == NONE, plan.rule == BoundaryRule::None && touches, "{name}: quad {quad}");
+        }
+        let total: u32 = plan.lists.iter().map(|list| list.count).sum();
+        assert_eq!(total as usize, plan.patches.len(), "{name}");
+    }
+}
+
+#[test]
+fn lists_follow_each_other_and_hold_whole_nets() {
+    for (name, _, plan) in plans() {
+        let (mut patch, mut index) = (0, 0);
+        for list in &plan.lists {
+            assert_eq!((list.first_patch, list.first_index), (patch, index), "{name}: {:?}", list.kind);
+            for record in &plan.patches[patch as usize..][..list.count as usize] {
+                assert_eq!(record.net, index, "{name}");
+                match list.kind {
+                    PatchKind::Regular => assert_eq!(record.net_size, 16, "{name}"),
+                    PatchKind::Extraordinary { valence } => {
+                        assert_eq!((record.net_size, record.valence()), (2 * valence + 8, valence), "{name}");
+                        assert!(record.net_size <= 32, "{name}");
+                    }
+                    PatchKind::Coefficients => assert!(record.is_extraordinary(), "{name}"),
+                }
+                index += record.net_size;
+            }
+            patch += list.count;
+        }
+        assert_eq!(index as usize, plan.nets.len(), "{name}");
+        assert!(plan.nets.iter().all(|&i| i < plan.point_count), "{name}");
+    }
+}
+
+#[test]
+fn every_record_is_named_and_edges_are_shared_by_two_patches_or_one() {
+    for (name, _, plan) in plans() {
+        let mut vertex_uses = vec![0; plan.vertex_records.count()];
+        let mut edge_uses = vec![[0; 2]; plan.edge_records.count()];
+        for patch in &plan.patches {
+            patch.vertex.iter().for_each(|&v| vertex_uses[v as usize] += 1);
+            patch.edge.iter().for_each(|&e| edge_uses[(e / 2) as usize][(e & 1) as usize] += 1);
+        }
+        assert!(vertex_uses.iter().all(|&n| n > 0), "{name}");
+        for (edge, uses) in edge_uses.iter().enumerate() {
+            // The owner walks it forwards, the other patch, if there is one, backwards.
+            assert_eq!(*uses, [1, u32::from(!plan.boundary_edges[edge])], "{name}: edge {edge}");
+        }
+    }
+}
+
+/// Records agree with each other: an edge's curve ends in the limit positions of its two vertices, from whichever patch it was taken.
+#[test]
+fn edge_records_end_in_vertex_records() {
+    for (name, cage, plan) in plans() {
+        let (centre, scale) = (cage.bounds().center(), cage.bounds().half_diagonal());
+        let start: Vec<Vec3> = cage.positions().iter().map(|&p| ((p - centre) / scale).as_vec3()).collect();
+        let points = twin::points(&plan, &start);
+        let (vertices, edges) = (twin::vertex_records(&plan, &points), twin::edge_records(&plan, &points));
+        for patch in &plan.patches {
+            for side in 0..4 {
+                let [from, to] = [side, (side + 1) % 4].map(|k| vertices[patch.vertex[k] as usize][0]);
+                let record = &edges[(patch.edge[side] / 2) as usize];
+                let (first, last) = if patch.edge[side] & 1 == 0 { (from, to) } else { (to, from) };
+                let gap = (record[0] - first).length().max((record[3] - last).length());
+                assert!(gap < 2e-6, "{name}: side {side} of {patch:?}: {gap:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn locations_map_there_and_back() {
+    for (name, cage, plan) in plans() {
+        for (patch, &quad) in plan.quads.iter().enumerate() {
+            let location = plan.locator.locate(quad);
+            assert_eq!(location.sub_face.face, plan.locator.base_face(quad), "{name}");
+            for uv in [[0.25, 0.125], [0.75, 0.5], [0.375, 0.875]] {
+                let found = plan.locator.find(location.sub_face, location.st(uv));
+                assert_eq!(found, Some((quad, uv)), "{name}: patch {patch}");
+            }
+        }
+        // One step cuts a quad into 4, two steps a quad into 16 and the part of any other face into 4.
+        let count = |f: u32| match (plan.steps(), cage.face(f as usize).len()) {
+            (1, _) => 4,
+            (_, 4) => 16,
+            (_, corners) => 4 * corners,
+        };
+        let quads: usize = (0..cage.face_count() as u32).map(count).sum();
+        assert_eq!(plan.patch_of_quad.len(), quads, "{name}");
+    }
+}
+
+/// Every patch's corners, by base face and (s,t), are where the exact surface has them.
+#[test]
+fn vertex_records_lie_on_the_exact_surface() {
+    use osculate_surface::reference::{Boundary, Mesh, Reference};
+    for (name, cage, plan) in plans() {
+        let boundary = if plan.rule == BoundaryRule::EdgeOnly { Boundary::EdgeOnly } else { Boundary::EdgeAndCorner };
+        let mesh = Mesh {
+            positions: cage.positions().to_vec(),
+            face_offsets: cage.face_offsets().to_vec(),
+            face_vertices: cage.face_vertices().to_vec(),
+        };
+        let reference = Reference::new(&mesh, boundary).unwrap();
+        let (centre, scale) = (cage.bounds().center(), cage.bounds().half_diagonal());
+        let start: Vec<Vec3> = cage.positions().iter().map(|&p| ((p - centre) / scale).as_vec3()).collect();
+        let points = twin::points(&plan, &start);
+        let vertices = twin::vertex_records(&plan, &points);
+        // A sample of patches is enough in large cages.
+        for patch in (0..plan.patches.len()).step_by(plan.patches.len() / 500 + 1) {
+            let location = plan.locator.locate(plan.quads[patch]);
+            for (corner, uv) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].into_iter().enumerate() {
+                let [s, t] = location.st(uv);
+                let exact = reference.eval(location.sub_face.face as usize, location.sub_face.sub, s, t).unwrap();
+                let [position, normal] = vertices[plan.patches[patch].vertex[corner] as usize].map(|v| v.as_dvec3());
+                let error = (position - (exact.position - centre) / scale).length();
+                assert!(error < 2e-6, "{name}: corner {corner} of patch {patch} is off by {error:e}");
+                if exact.normal != DVec3::ZERO && normal != DVec3::ZERO && !is_valence_two(&plan, patch) {
+                    let turn = (normal - exact.normal).length();
+                    assert!(turn < 5e-5, "{name}: normal at corner {corner} of patch {patch} is off by {turn:e}");
+                }
+            }
+        }
+    }
+}
+
+/// Inner vertices of valence 2 have no tangent plane.
+fn is_valence_two(plan: &SurfacePlan, patch: usize) -> bool {
+    plan.patches[patch].valence() == 2 && !plan.patches[patch].is_boundary()
+}
