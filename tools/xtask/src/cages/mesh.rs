@@ -29,19 +29,12 @@ pub(super) struct Uv {
 impl Mesh {
     /// A mesh without texture coordinates.
     pub(super) fn new(points: Vec<DVec3>, faces: Vec<Vec<usize>>) -> Self {
-        Self {
-            points,
-            faces,
-            uv: None,
-            tags: Vec::new(),
-        }
+        Self { points, faces, uv: None, tags: Vec::new() }
     }
 
     /// Twice the area of a face as a vector along its normal (Newell's formula).
     pub(super) fn face_normal(&self, face: usize) -> DVec3 {
-        corner_pairs(&self.faces[face])
-            .map(|(a, b)| self.points[a].cross(self.points[b]))
-            .sum()
+        corner_pairs(&self.faces[face]).map(|(a, b)| self.points[a].cross(self.points[b])).sum()
     }
 }
 
@@ -60,10 +53,7 @@ pub(super) struct Welder<K, P> {
 impl<K: Ord, P> Welder<K, P> {
     /// A welder that knows no key.
     pub(super) fn new() -> Self {
-        Self {
-            index_of: BTreeMap::new(),
-            points: Vec::new(),
-        }
+        Self { index_of: BTreeMap::new(), points: Vec::new() }
     }
 
     /// The index of `key`; `point` is called when the key is new.

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, ensure};
 
+mod creature;
 mod mesh;
 mod obj;
 mod primitives;
@@ -33,11 +34,7 @@ struct Asset {
 
 impl Asset {
     fn new(name: impl Into<String>, exercises: &'static str, mesh: Mesh) -> Self {
-        Self {
-            name: name.into(),
-            exercises,
-            mesh,
-        }
+        Self { name: name.into(), exercises, mesh }
     }
 
     fn file_name(&self) -> String {
@@ -48,36 +45,16 @@ impl Asset {
 /// Every shipped cage, in the order of the table in the README.
 fn assets() -> Vec<Asset> {
     let mut assets = vec![
-        Asset::new(
-            "cube",
-            "valence 3 at every corner; the smallest closed quad cage",
-            primitives::cube(),
-        ),
+        Asset::new("cube", "valence 3 at every corner; the smallest closed quad cage", primitives::cube()),
         Asset::new(
             "pyramid",
             "triangles beside a quad, valence 3 and 4; the report's worked example",
             primitives::pyramid(),
         ),
-        Asset::new(
-            "torus",
-            "regular patches only: no extraordinary vertex, no boundary",
-            primitives::torus(12, 8),
-        ),
-        Asset::new(
-            "twohole",
-            "genus 2; quads with several extraordinary corners, valence 3 to 5",
-            voxels::two_holes(),
-        ),
-        Asset::new(
-            "grid",
-            "open regular grid: boundary patches and four one-face corners",
-            primitives::grid(8),
-        ),
-        Asset::new(
-            "ngon",
-            "triangles, quads, pentagons and a hexagon in one closed cage",
-            primitives::ngon(),
-        ),
+        Asset::new("torus", "regular patches only: no extraordinary vertex, no boundary", primitives::torus(12, 8)),
+        Asset::new("twohole", "genus 2; quads with several extraordinary corners, valence 3 to 5", voxels::two_holes()),
+        Asset::new("grid", "open regular grid: boundary patches and four one-face corners", primitives::grid(8)),
+        Asset::new("ngon", "triangles, quads, pentagons and a hexagon in one closed cage", primitives::ngon()),
     ];
     for valence in star::VALENCES {
         let exercises = match valence {
@@ -85,11 +62,7 @@ fn assets() -> Vec<Asset> {
             13.. => "one interior vertex beyond the valences with a pipeline of their own",
             _ => "one interior extraordinary vertex in an open dome of quads",
         };
-        assets.push(Asset::new(
-            format!("star{valence}"),
-            exercises,
-            star::star(valence),
-        ));
+        assets.push(Asset::new(format!("star{valence}"), exercises, star::star(valence)));
     }
     assets.extend([
         Asset::new(
@@ -97,21 +70,14 @@ fn assets() -> Vec<Asset> {
             "two poles of valence 64 in fans of triangles; uv with a seam",
             sphere::uv_sphere(64, 12),
         ),
-        Asset::new(
-            "shell",
-            "open shell: boundary vertices with 1, 2, 3, 4 and 5 faces",
-            shell::shell(),
-        ),
+        Asset::new("shell", "open shell: boundary vertices with 1, 2, 3, 4 and 5 faces", shell::shell()),
         Asset::new(
             "shell_edge_only",
             "the shell with smooth boundary corners (tag interpolateboundary 2)",
             shell::shell_edge_only(),
         ),
-        Asset::new(
-            "triangles",
-            "closed cage of triangles only, valence 4 to 9",
-            triangles::pebble(),
-        ),
+        Asset::new("triangles", "closed cage of triangles only, valence 4 to 9", triangles::pebble()),
+        Asset::new("dragon", "the creature of the pictures: all quads, valence 3 to 6, uv", creature::dragon()),
     ]);
     assets
 }
@@ -127,12 +93,8 @@ fn files() -> anyhow::Result<Vec<(String, String)>> {
     let mut files = Vec::with_capacity(assets.len() + 1);
     let mut rows = Vec::with_capacity(assets.len());
     for asset in &assets {
-        let survey = Survey::of(&asset.mesh)
-            .with_context(|| format!("{} is not fit to ship", asset.file_name()))?;
-        files.push((
-            asset.file_name(),
-            obj::to_obj(&asset.mesh, &format!("{}: {}", asset.name, asset.exercises)),
-        ));
+        let survey = Survey::of(&asset.mesh).with_context(|| format!("{} is not fit to ship", asset.file_name()))?;
+        files.push((asset.file_name(), obj::to_obj(&asset.mesh, &format!("{}: {}", asset.name, asset.exercises))));
         rows.push((asset, survey));
     }
     files.push(("README.md".into(), readme::text(&rows)));
@@ -163,19 +125,13 @@ pub(crate) fn check() -> anyhow::Result<()> {
             Err(error) => wrong.push(format!("{name} cannot be read: {error}")),
         }
     }
-    for entry in
-        fs::read_dir(&folder).with_context(|| format!("cannot list {}", folder.display()))?
-    {
+    for entry in fs::read_dir(&folder).with_context(|| format!("cannot list {}", folder.display()))? {
         let name = entry?.file_name().to_string_lossy().into_owned();
         if !expected.iter().any(|(known, _)| *known == name) {
             wrong.push(format!("{name} comes from no generator"));
         }
     }
-    ensure!(
-        wrong.is_empty(),
-        "assets/cages is out of date: {}; run `cargo xtask cages`",
-        wrong.join(", ")
-    );
+    ensure!(wrong.is_empty(), "assets/cages is out of date: {}; run `cargo xtask cages`", wrong.join(", "));
     Ok(())
 }
 
@@ -184,10 +140,7 @@ mod tests {
     use super::*;
 
     fn survey(name: &str) -> Survey {
-        let asset = assets()
-            .into_iter()
-            .find(|asset| asset.name == name)
-            .expect("a shipped cage");
+        let asset = assets().into_iter().find(|asset| asset.name == name).expect("a shipped cage");
         Survey::of(&asset.mesh).expect("a sound cage")
     }
 
@@ -200,25 +153,14 @@ mod tests {
     fn names_are_unique_and_files_small() {
         let files = files().unwrap();
         for (index, (name, text)) in files.iter().enumerate() {
-            assert!(
-                files[..index].iter().all(|(earlier, _)| earlier != name),
-                "{name} occurs twice"
-            );
+            assert!(files[..index].iter().all(|(earlier, _)| earlier != name), "{name} occurs twice");
             assert!(text.len() < 1 << 20, "{name} has {} bytes", text.len());
         }
     }
 
     #[test]
     fn closed_cages_are_closed_and_wound_outward() {
-        for name in [
-            "cube",
-            "pyramid",
-            "torus",
-            "twohole",
-            "ngon",
-            "uvsphere",
-            "triangles",
-        ] {
+        for name in ["cube", "pyramid", "torus", "twohole", "ngon", "uvsphere", "triangles", "dragon"] {
             let survey = survey(name);
             assert!(survey.is_closed(), "{name} is open");
             assert!(survey.volume > 0.0, "{name} is inside out");
@@ -227,13 +169,7 @@ mod tests {
 
     #[test]
     fn genus_is_as_promised() {
-        for (name, characteristic) in [
-            ("cube", 2),
-            ("torus", 0),
-            ("twohole", -2),
-            ("uvsphere", 2),
-            ("triangles", 2),
-        ] {
+        for (name, characteristic) in [("cube", 2), ("torus", 0), ("twohole", -2), ("uvsphere", 2), ("triangles", 2)] {
             assert_eq!(survey(name).characteristic, characteristic, "{name}");
         }
     }
@@ -248,15 +184,8 @@ mod tests {
                 _ => expected.push((valence, 1)),
             }
             expected.sort_unstable();
-            assert_eq!(
-                survey.interior_valences.into_iter().collect::<Vec<_>>(),
-                expected,
-                "star{valence}"
-            );
-            assert!(
-                survey.boundary_faces.keys().all(|faces| *faces <= 2),
-                "star{valence}"
-            );
+            assert_eq!(survey.interior_valences.into_iter().collect::<Vec<_>>(), expected, "star{valence}");
+            assert!(survey.boundary_faces.keys().all(|faces| *faces <= 2), "star{valence}");
         }
     }
 
@@ -279,9 +208,15 @@ mod tests {
     fn triangle_cage_has_valences_4_to_9() {
         let survey = survey("triangles");
         assert_eq!(survey.face_sizes.into_keys().collect::<Vec<_>>(), [3]);
-        assert_eq!(
-            survey.interior_valences.into_keys().collect::<Vec<_>>(),
-            [4, 5, 6, 7, 8, 9]
-        );
+        assert_eq!(survey.interior_valences.into_keys().collect::<Vec<_>>(), [4, 5, 6, 7, 8, 9]);
+    }
+
+    #[test]
+    fn the_dragon_is_one_body_and_two_eyes_of_quads() {
+        let survey = survey("dragon");
+        assert_eq!(survey.face_sizes.keys().copied().collect::<Vec<_>>(), [4]);
+        assert!((1000..=2000).contains(&survey.faces()), "{} quads", survey.faces());
+        assert_eq!(survey.interior_valences.keys().copied().collect::<Vec<_>>(), [3, 4, 5, 6]);
+        assert_eq!(survey.characteristic, 3 * 2, "three spheres");
     }
 }

@@ -11,10 +11,7 @@ const DECIMALS: usize = 5;
 pub(super) fn to_obj(mesh: &Mesh, comment: &str) -> String {
     let mut text = format!("# {comment}\n");
     for p in &mesh.points {
-        line(
-            &mut text,
-            &format!("v {} {} {}", decimal(p.x), decimal(p.y), decimal(p.z)),
-        );
+        line(&mut text, &format!("v {} {} {}", decimal(p.x), decimal(p.y), decimal(p.z)));
     }
     for p in mesh.uv.iter().flat_map(|uv| &uv.points) {
         line(&mut text, &format!("vt {} {}", decimal(p.x), decimal(p.y)));
@@ -56,13 +53,7 @@ mod tests {
 
     #[test]
     fn numbers_are_short_and_never_minus_zero() {
-        let cases = [
-            (0.1, "0.1"),
-            (-1e-9, "0"),
-            (100.0, "100"),
-            (-2.0, "-2"),
-            (1.0 / 3.0, "0.33333"),
-        ];
+        let cases = [(0.1, "0.1"), (-1e-9, "0"), (100.0, "100"), (-2.0, "-2"), (1.0 / 3.0, "0.33333")];
         for (value, expected) in cases {
             assert_eq!(decimal(value), expected);
         }
@@ -72,18 +63,9 @@ mod tests {
     fn indices_start_at_one_and_tags_come_last() {
         let mut mesh = Mesh::new(vec![DVec3::ZERO, DVec3::X, DVec3::Y], vec![vec![0, 1, 2]]);
         mesh.tags.push("t corner 1/1/0 0 1");
-        assert_eq!(
-            to_obj(&mesh, "a"),
-            "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nt corner 1/1/0 0 1\n"
-        );
+        assert_eq!(to_obj(&mesh, "a"), "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nt corner 1/1/0 0 1\n");
         mesh.tags.clear();
-        mesh.uv = Some(Uv {
-            points: vec![DVec2::ZERO],
-            faces: vec![vec![0, 0, 0]],
-        });
-        assert_eq!(
-            to_obj(&mesh, "a"),
-            "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n"
-        );
+        mesh.uv = Some(Uv { points: vec![DVec2::ZERO], faces: vec![vec![0, 0, 0]] });
+        assert_eq!(to_obj(&mesh, "a"), "# a\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nf 1/1 2/1 3/1\n");
     }
 }

@@ -41,11 +41,7 @@ fn sizes(survey: &Survey) -> String {
         4 => "quads".to_string(),
         n => format!("{n}-gons"),
     };
-    let parts: Vec<String> = survey
-        .face_sizes
-        .iter()
-        .map(|(&size, count)| format!("{count} {}", name(size)))
-        .collect();
+    let parts: Vec<String> = survey.face_sizes.iter().map(|(&size, count)| format!("{count} {}", name(size))).collect();
     match parts.as_slice() {
         [only] => only.clone(),
         _ => format!("{} ({})", survey.faces(), parts.join(", ")),

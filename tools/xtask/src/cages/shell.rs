@@ -25,15 +25,9 @@ pub(super) fn shell() -> Mesh {
     let mut welder = Welder::new();
     let mut faces = Vec::new();
     for sector in 0..SECTORS {
-        for (i, j) in
-            squares(SIDE).filter(|&(i, j)| !(sector == NOTCHED && i >= MIDDLE && j >= MIDDLE))
-        {
+        for (i, j) in squares(SIDE).filter(|&(i, j)| !(sector == NOTCHED && i >= MIDDLE && j >= MIDDLE)) {
             let nodes = quad(i, j).map(|corner| Node::of(sector, i, corner));
-            faces.push(
-                nodes
-                    .map(|node| welder.index(node, || node.position()))
-                    .into(),
-            );
+            faces.push(nodes.map(|node| welder.index(node, || node.position())).into());
         }
     }
     Mesh::new(welder.points, faces)
@@ -41,10 +35,7 @@ pub(super) fn shell() -> Mesh {
 
 /// The shell with the tag that rounds its boundary corners: OpenSubdiv's rule "edge only".
 pub(super) fn shell_edge_only() -> Mesh {
-    Mesh {
-        tags: vec!["t interpolateboundary 1/0/0 2"],
-        ..shell()
-    }
+    Mesh { tags: vec!["t interpolateboundary 1/0/0 2"], ..shell() }
 }
 
 /// The name of a vertex.
@@ -69,18 +60,8 @@ impl Node {
             1
         };
         match (i, j) {
-            (0, 0) => Self {
-                sector: 0,
-                i,
-                j,
-                bank,
-            },
-            (0, j) if sector + 1 < SECTORS => Self {
-                sector: sector + 1,
-                i: j,
-                j: 0,
-                bank,
-            },
+            (0, 0) => Self { sector: 0, i, j, bank },
+            (0, j) if sector + 1 < SECTORS => Self { sector: sector + 1, i: j, j: 0, bank },
             _ => Self { sector, i, j, bank },
         }
     }
@@ -103,9 +84,5 @@ fn place(sector: usize, i: f64, j: f64) -> DVec2 {
 
 /// Lifts a plane position, counter-clockwise seen from above, onto a wavy dome.
 fn lift(p: DVec2) -> DVec3 {
-    dvec3(
-        p.x,
-        0.5 - 0.4 * p.length_squared() + 0.1 * (3.0 * p.x).sin(),
-        -p.y,
-    )
+    dvec3(p.x, 0.5 - 0.4 * p.length_squared() + 0.1 * (3.0 * p.x).sin(), -p.y)
 }

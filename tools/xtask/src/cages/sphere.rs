@@ -15,24 +15,11 @@ pub(super) fn uv_sphere(meridians: usize, bands: usize) -> Mesh {
     let (mut faces, mut uv_faces) = (Vec::new(), Vec::new());
     for (band, k) in (0..bands).flat_map(|band| (0..meridians).map(move |k| (band, k))) {
         let corners = sphere.corners(band, k);
-        let vertex = |&(k, band): &(usize, usize)| {
-            points.index(sphere.vertex(k, band), || sphere.position(k, band))
-        };
+        let vertex = |&(k, band): &(usize, usize)| points.index(sphere.vertex(k, band), || sphere.position(k, band));
         faces.push(corners.iter().map(vertex).collect());
-        uv_faces.push(
-            corners
-                .iter()
-                .map(|&(k, band)| uv.index((k, band), || sphere.coordinate(k, band)))
-                .collect(),
-        );
+        uv_faces.push(corners.iter().map(|&(k, band)| uv.index((k, band), || sphere.coordinate(k, band))).collect());
     }
-    Mesh {
-        uv: Some(Uv {
-            points: uv.points,
-            faces: uv_faces,
-        }),
-        ..Mesh::new(points.points, faces)
-    }
+    Mesh { uv: Some(Uv { points: uv.points, faces: uv_faces }), ..Mesh::new(points.points, faces) }
 }
 
 struct Sphere {
@@ -58,11 +45,7 @@ impl Sphere {
 
     /// The one name of a vertex: a pole lies on every meridian, and the last meridian is the first.
     fn vertex(&self, k: usize, parallel: usize) -> (usize, usize) {
-        if self.at_pole(parallel) {
-            (0, parallel)
-        } else {
-            (k % self.meridians, parallel)
-        }
+        if self.at_pole(parallel) { (0, parallel) } else { (k % self.meridians, parallel) }
     }
 
     fn position(&self, k: usize, parallel: usize) -> DVec3 {
@@ -77,9 +60,6 @@ impl Sphere {
     /// Texture coordinate; a pole has one per triangle, above the middle of its side.
     fn coordinate(&self, k: usize, parallel: usize) -> DVec2 {
         let shift = if self.at_pole(parallel) { 0.5 } else { 0.0 };
-        dvec2(
-            (k as f64 + shift) / self.meridians as f64,
-            parallel as f64 / self.bands as f64,
-        )
+        dvec2((k as f64 + shift) / self.meridians as f64, parallel as f64 / self.bands as f64)
     }
 }

@@ -19,11 +19,7 @@ pub(super) fn star(valence: usize) -> Mesh {
     for sector in 0..valence {
         for (i, j) in squares(RINGS) {
             let corners = quad(i, j).map(|(i, j)| spoke_owner(valence, sector, i, j));
-            faces.push(
-                corners
-                    .map(|(s, i, j)| welder.index((s, i, j), || dome(place(valence, s, i, j))))
-                    .into(),
-            );
+            faces.push(corners.map(|(s, i, j)| welder.index((s, i, j), || dome(place(valence, s, i, j)))).into());
         }
     }
     Mesh::new(welder.points, faces)

@@ -36,21 +36,12 @@ impl Survey {
             characteristic: 0,
             volume: volume(mesh),
         };
-        mesh.faces
-            .iter()
-            .for_each(|face| *survey.face_sizes.entry(face.len()).or_default() += 1);
+        mesh.faces.iter().for_each(|face| *survey.face_sizes.entry(face.len()).or_default() += 1);
         survey.count_vertices(mesh, &edges)?;
-        ensure!(
-            !survey.is_closed() || survey.volume > 0.0,
-            "the mesh is inside out"
-        );
-        let boundary = edges
-            .keys()
-            .filter(|(a, b)| !edges.contains_key(&(*b, *a)))
-            .count();
+        ensure!(!survey.is_closed() || survey.volume > 0.0, "the mesh is inside out");
+        let boundary = edges.keys().filter(|(a, b)| !edges.contains_key(&(*b, *a))).count();
         let edge_count = (edges.len() + boundary) / 2;
-        survey.characteristic =
-            mesh.points.len() as isize - edge_count as isize + mesh.faces.len() as isize;
+        survey.characteristic = mesh.points.len() as isize - edge_count as isize + mesh.faces.len() as isize;
         Ok(survey)
     }
 
@@ -66,10 +57,7 @@ impl Survey {
 
     fn count_vertices(&mut self, mesh: &Mesh, edges: &Edges) -> anyhow::Result<()> {
         let mut faces_at = vec![0; mesh.points.len()];
-        mesh.faces
-            .iter()
-            .flatten()
-            .for_each(|&vertex| faces_at[vertex] += 1);
+        mesh.faces.iter().flatten().for_each(|&vertex| faces_at[vertex] += 1);
         let mut start = vec![None; mesh.points.len()];
         for &(a, b) in edges.keys() {
             // The ring starts at the outgoing edge without a twin; any edge will do for an interior vertex.
@@ -78,19 +66,10 @@ impl Survey {
             }
         }
         for vertex in 0..mesh.points.len() {
-            let Some(first) = start[vertex] else {
-                bail!("vertex {vertex} belongs to no face")
-            };
+            let Some(first) = start[vertex] else { bail!("vertex {vertex} belongs to no face") };
             let (steps, closed) = walk_ring(mesh, edges, vertex, first);
-            ensure!(
-                steps == faces_at[vertex],
-                "vertex {vertex} joins several fans of faces"
-            );
-            let counts = if closed {
-                &mut self.interior_valences
-            } else {
-                &mut self.boundary_faces
-            };
+            ensure!(steps == faces_at[vertex], "vertex {vertex} joins several fans of faces");
+            let counts = if closed { &mut self.interior_valences } else { &mut self.boundary_faces };
             *counts.entry(steps).or_default() += 1;
         }
         Ok(())
@@ -116,53 +95,28 @@ fn walk_ring(mesh: &Mesh, edges: &Edges, vertex: usize, first: usize) -> (usize,
 }
 
 fn check_faces(mesh: &Mesh) -> anyhow::Result<()> {
-    ensure!(
-        mesh.points.iter().all(|point| point.is_finite()),
-        "a coordinate is not finite"
-    );
+    ensure!(mesh.points.iter().all(|point| point.is_finite()), "a coordinate is not finite");
     for (index, face) in mesh.faces.iter().enumerate() {
         ensure!(face.len() >= 3, "face {index} has {} corners", face.len());
-        ensure!(
-            face.iter().all(|&vertex| vertex < mesh.points.len()),
-            "face {index} names no vertex"
-        );
+        ensure!(face.iter().all(|&vertex| vertex < mesh.points.len()), "face {index} names no vertex");
         let sides = corner_pairs(face).map(|(a, b)| mesh.points[a].distance(mesh.points[b]));
         let longest = sides.clone().fold(0.0, f64::max);
-        ensure!(
-            sides.fold(f64::MAX, f64::min) > 0.01 * longest,
-            "face {index} has a collapsed side"
-        );
+        ensure!(sides.fold(f64::MAX, f64::min) > 0.01 * longest, "face {index} has a collapsed side");
         let area = 0.5 * mesh.face_normal(index).length();
-        ensure!(
-            area > 0.01 * longest * longest,
-            "face {index} is degenerate"
-        );
+        ensure!(area > 0.01 * longest * longest, "face {index} is degenerate");
     }
     Ok(())
 }
 
 fn check_uv(mesh: &Mesh) -> anyhow::Result<()> {
     let Some(uv) = &mesh.uv else { return Ok(()) };
-    ensure!(
-        uv.faces.len() == mesh.faces.len(),
-        "texture coordinates for {} faces",
-        uv.faces.len()
-    );
+    ensure!(uv.faces.len() == mesh.faces.len(), "texture coordinates for {} faces", uv.faces.len());
     for (index, (corners, face)) in uv.faces.iter().zip(&mesh.faces).enumerate() {
-        ensure!(
-            corners.len() == face.len(),
-            "texture coordinates of face {index} do not fit it"
-        );
-        ensure!(
-            corners.iter().all(|&corner| corner < uv.points.len()),
-            "face {index} names no coordinate"
-        );
+        ensure!(corners.len() == face.len(), "texture coordinates of face {index} do not fit it");
+        ensure!(corners.iter().all(|&corner| corner < uv.points.len()), "face {index} names no coordinate");
     }
     let in_square = |p: &glam::DVec2| p.min_element() >= 0.0 && p.max_element() <= 1.0;
-    ensure!(
-        uv.points.iter().all(in_square),
-        "a texture coordinate lies outside the unit square"
-    );
+    ensure!(uv.points.iter().all(in_square), "a texture coordinate lies outside the unit square");
     Ok(())
 }
 
@@ -171,10 +125,7 @@ fn directed_edges(mesh: &Mesh) -> anyhow::Result<Edges> {
     for (index, face) in mesh.faces.iter().enumerate() {
         for (corner, edge) in corner_pairs(face).enumerate() {
             let earlier = edges.insert(edge, (index, corner));
-            ensure!(
-                earlier.is_none(),
-                "edge {edge:?} is run twice in one direction, again by face {index}"
-            );
+            ensure!(earlier.is_none(), "edge {edge:?} is run twice in one direction, again by face {index}");
         }
     }
     Ok(edges)
@@ -182,12 +133,8 @@ fn directed_edges(mesh: &Mesh) -> anyhow::Result<Edges> {
 
 /// Volume of the cone from the origin over the faces: the enclosed volume of a closed mesh.
 fn volume(mesh: &Mesh) -> f64 {
-    let fans = mesh
-        .faces
-        .iter()
-        .flat_map(|face| (1..face.len() - 1).map(move |k| [face[0], face[k], face[k + 1]]));
-    fans.map(|[a, b, c]| mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) / 6.0)
-        .sum()
+    let fans = mesh.faces.iter().flat_map(|face| (1..face.len() - 1).map(move |k| [face[0], face[k], face[k + 1]]));
+    fans.map(|[a, b, c]| mesh.points[a].dot(mesh.points[b].cross(mesh.points[c])) / 6.0).sum()
 }
 
 #[cfg(test)]
@@ -214,10 +161,7 @@ mod tests {
     #[test]
     fn refuses_what_no_cage_may_be() {
         assert!(refusal(|mesh| mesh.faces[0].reverse()).contains("twice"));
-        assert!(
-            refusal(|mesh| mesh.faces.iter_mut().for_each(|face| face.reverse()))
-                .contains("inside out")
-        );
+        assert!(refusal(|mesh| mesh.faces.iter_mut().for_each(|face| face.reverse())).contains("inside out"));
         assert!(refusal(|mesh| mesh.points[0] = mesh.points[1]).contains("collapsed"));
         assert!(refusal(|mesh| mesh.points.push(glam::DVec3::ZERO)).contains("no face"));
         assert!(refusal(|mesh| mesh.faces[0] = vec![0, 2]).contains("corners"));
@@ -231,25 +175,10 @@ mod tests {
         let first = mesh.points.len();
         mesh.points.extend(other.points.iter().map(|p| *p + 4.0));
         let merged = |vertex: usize| if vertex == 0 { 7 } else { first + vertex };
-        mesh.faces.extend(
-            other
-                .faces
-                .iter()
-                .map(|face| face.iter().map(|&v| merged(v)).collect()),
-        );
+        mesh.faces.extend(other.faces.iter().map(|face| face.iter().map(|&v| merged(v)).collect()));
         mesh.points.swap_remove(first);
         let last = mesh.points.len();
-        mesh.faces
-            .iter_mut()
-            .flatten()
-            .filter(|v| **v == last)
-            .for_each(|v| *v = first);
-        assert!(
-            Survey::of(&mesh)
-                .err()
-                .expect("a refusal")
-                .to_string()
-                .contains("fans")
-        );
+        mesh.faces.iter_mut().flatten().filter(|v| **v == last).for_each(|v| *v = first);
+        assert!(Survey::of(&mesh).err().expect("a refusal").to_string().contains("fans"));
     }
 }

@@ -36,12 +36,7 @@ const FLIPS_PER_ROUND: usize = 60;
 fn icosahedron() -> Mesh {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     let mut points = Vec::new();
-    for (a, b) in [
-        (1.0, golden),
-        (1.0, -golden),
-        (-1.0, golden),
-        (-1.0, -golden),
-    ] {
+    for (a, b) in [(1.0, golden), (1.0, -golden), (-1.0, golden), (-1.0, -golden)] {
         points.extend([dvec3(0.0, a, b), dvec3(a, b, 0.0), dvec3(b, 0.0, a)]);
     }
     let near = |a: DVec3, b: DVec3| (a.distance(b) - 2.0).abs() < 1e-9;
@@ -67,11 +62,7 @@ fn split(mesh: &Mesh) -> Mesh {
     let mut faces = Vec::new();
     for face in &mesh.faces {
         let middle: Vec<usize> = corner_pairs(face)
-            .map(|(a, b)| {
-                welder.index((a.min(b), a.max(b)), || {
-                    (mesh.points[a] + mesh.points[b]).normalize()
-                })
-            })
+            .map(|(a, b)| welder.index((a.min(b), a.max(b)), || (mesh.points[a] + mesh.points[b]).normalize()))
             .collect();
         faces.extend((0..3).map(|k| vec![face[k], middle[k], middle[(k + 2) % 3]]));
         faces.push(middle);
@@ -83,23 +74,13 @@ fn split(mesh: &Mesh) -> Mesh {
 /// and both triangles well shaped.
 fn flip(mesh: &mut Mesh, face: usize, corner: usize) {
     let [a, b, c] = [0, 1, 2].map(|k| mesh.faces[face][(corner + k) % 3]);
-    let across = mesh
-        .faces
-        .iter()
-        .position(|other| corner_pairs(other).any(|edge| edge == (b, a)));
+    let across = mesh.faces.iter().position(|other| corner_pairs(other).any(|edge| edge == (b, a)));
     let other = across.expect("the pebble is closed");
-    let d = mesh.faces[other]
-        .iter()
-        .copied()
-        .find(|&v| v != a && v != b)
-        .expect("a triangle");
+    let d = mesh.faces[other].iter().copied().find(|&v| v != a && v != b).expect("a triangle");
     let valence = valences(mesh);
     let loses = [a, b].iter().all(|&v| VALENCES.contains(&(valence[v] - 1)));
     let gains = [c, d].iter().all(|&v| VALENCES.contains(&(valence[v] + 1)));
-    let joined = mesh
-        .faces
-        .iter()
-        .any(|face| face.contains(&c) && face.contains(&d));
+    let joined = mesh.faces.iter().any(|face| face.contains(&c) && face.contains(&d));
     let [p, q, r, s] = [a, b, c, d].map(|vertex| mesh.points[vertex]);
     if loses && gains && !joined && quality(p, s, r) > 0.3 && quality(s, q, r) > 0.3 {
         mesh.faces[face] = vec![a, d, c];
@@ -109,10 +90,7 @@ fn flip(mesh: &mut Mesh, face: usize, corner: usize) {
 
 fn valences(mesh: &Mesh) -> Vec<usize> {
     let mut valence = vec![0; mesh.points.len()];
-    mesh.faces
-        .iter()
-        .flatten()
-        .for_each(|&vertex| valence[vertex] += 1);
+    mesh.faces.iter().flatten().for_each(|&vertex| valence[vertex] += 1);
     valence
 }
 
@@ -138,7 +116,6 @@ fn relax(mesh: &mut Mesh) {
 
 /// From the unit sphere to a lopsided pebble.
 fn shape(p: DVec3) -> DVec3 {
-    let bump =
-        1.0 + 0.12 * (2.0 * p.x + 1.0).sin() * (3.0 * p.y).cos() + 0.08 * (4.0 * p.z + p.x).sin();
+    let bump = 1.0 + 0.12 * (2.0 * p.x + 1.0).sin() * (3.0 * p.y).cos() + 0.08 * (4.0 * p.z + p.x).sin();
     bump * p * dvec3(1.2, 0.8, 1.0)
 }

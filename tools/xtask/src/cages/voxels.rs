@@ -7,9 +7,7 @@ use super::mesh::{Mesh, Welder};
 /// A slab of 5 x 3 cells with two square holes.
 pub(super) fn two_holes() -> Mesh {
     let holes = [(1, 1), (3, 1)];
-    let columns = (0..5)
-        .flat_map(|x| (0..3).map(move |y| (x, y)))
-        .filter(|cell| !holes.contains(cell));
+    let columns = (0..5).flat_map(|x| (0..3).map(move |y| (x, y))).filter(|cell| !holes.contains(cell));
     let mut mesh = boundary(&columns.map(|(x, y)| ivec3(x, y, 0)).collect::<Vec<_>>());
     for point in &mut mesh.points {
         *point = 0.5 * (*point - DVec3::new(2.5, 1.5, 0.5));
@@ -25,11 +23,7 @@ fn boundary(cells: &[IVec3]) -> Mesh {
         for (outward, corners) in sides() {
             if !cells.contains(&(cell + outward)) {
                 let nodes = corners.map(|corner| cell + corner);
-                faces.push(
-                    nodes
-                        .map(|node| welder.index(node.to_array(), || node.as_dvec3()))
-                        .into(),
-                );
+                faces.push(nodes.map(|node| welder.index(node.to_array(), || node.as_dvec3())).into());
             }
         }
     }
@@ -43,15 +37,7 @@ fn sides() -> [(IVec3, [IVec3; 4]); 6] {
         let axis = side / 2;
         let (u, v) = (axes[(axis + 1) % 3], axes[(axis + 2) % 3]);
         match side % 2 {
-            0 => (
-                axes[axis],
-                [
-                    axes[axis],
-                    axes[axis] + u,
-                    axes[axis] + u + v,
-                    axes[axis] + v,
-                ],
-            ),
+            0 => (axes[axis], [axes[axis], axes[axis] + u, axes[axis] + u + v, axes[axis] + v]),
             _ => (-axes[axis], [IVec3::ZERO, v, u + v, u]),
         }
     })

@@ -1,0 +1,36 @@
+//! A small dragon: the cage of the project's pictures.
+//!
+//! Only its right half is built: a loft from nose to tail, out of which tubes grow where quads have been cut away. The half
+//! is faired, mirrored and posed.
+
+use super::mesh::Mesh;
+
+mod body;
+mod eyeball;
+mod face;
+mod fair;
+mod half;
+mod limbs;
+mod mirror;
+mod pack;
+mod pose;
+mod ridge;
+mod spline;
+mod tube;
+mod wings;
+
+use half::Half;
+
+/// The dragon: closed, all quads.
+pub(super) fn dragon() -> Mesh {
+    let mut half = Half::default();
+    let trunk = body::body(&mut half);
+    limbs::legs(&mut half, trunk);
+    wings::wing(&mut half, trunk);
+    ridge::ridge(&mut half, trunk);
+    face::face(&mut half, trunk);
+    fair::fair(&mut half);
+    let mut mesh = mirror::whole(&half);
+    mesh.points.iter_mut().for_each(|point| *point = pose::pose(*point));
+    mesh
+}

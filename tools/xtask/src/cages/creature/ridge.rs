@@ -1,0 +1,35 @@
+//! The row of rounded spines along the back.
+
+use glam::{DVec3, dvec3};
+
+use super::half::{Half, Sheet, SheetId};
+
+/// Rows of the trunk that carry a spine, and its height.
+const SPINES: [(usize, f64); 9] =
+    [(9, 0.11), (11, 0.12), (13, 0.12), (15, 0.13), (17, 0.14), (19, 0.14), (21, 0.13), (23, 0.11), (25, 0.09)];
+
+/// Grows the spines.
+pub(super) fn ridge(half: &mut Half, trunk: SheetId) {
+    for (row, height) in SPINES {
+        spine(half, trunk, row, height);
+    }
+}
+
+fn spine(half: &mut Half, trunk: SheetId, row: usize, height: f64) {
+    let rim = half.cut(trunk, row..row + 1, 0..1);
+    let ends = [half.points[rim[0]], half.points[rim[3]]];
+    let back = (ends[1] - ends[0]).normalize();
+    let up = dvec3(0.0, -back.z, back.y).normalize();
+    let up = if up.y < 0.0 { -up } else { up };
+    let base = 0.5 * (ends[0] + ends[1]);
+    let length = ends[0].distance(ends[1]);
+    let mut rows = vec![rim];
+    for (rise, lean, long, wide) in [(0.35, 0.05, 0.42, 0.045), (1.0, 0.35, 0.16, 0.018)] {
+        let middle = base + height * (rise * up + lean * back);
+        let point = |along: f64, x: f64| middle + along * long * length * back + DVec3::X * x;
+        rows.push(half.add([point(-1.0, 0.0), point(-1.0, wide), point(1.0, wide), point(1.0, 0.0)], 0.0));
+    }
+    let tip = rows[2].clone();
+    half.add_sheet(Sheet { rows, closed: false, midline: true });
+    half.cap(&tip, 1, 1, DVec3::ZERO);
+}
