@@ -4,7 +4,8 @@ use std::array;
 
 use glam::DVec3;
 
-/// The 4 x 4 control points of a patch, `[y][x]`; the patch lies over the middle square, (s,t) = (0,0) at `[1][1]`, s along x.
+/// The 4 x 4 control points of a patch, `[y][x]`; the patch lies over the middle square, (s,t) =
+/// (0,0) at `[1][1]`, s along x.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Grid(pub(super) [[DVec3; 4]; 4]);
 

@@ -8,8 +8,9 @@ use super::star::{Ring, Star};
 use super::topology::Topology;
 use super::{Boundary, Mesh, MeshError};
 
-/// Steps after which a sample that has come no nearer to a regular patch is taken to lie on the irregular vertex: its distance from it in (s,t) is then
-/// at most 2^-128, far below what f64 can tell apart in position.
+/// Steps after which a sample that has come no nearer to a regular patch is taken to lie on the
+/// irregular vertex: its distance from it in (s,t) is then at most 2^-128, far below what f64 can
+/// tell apart in position.
 const MAX_STEPS: usize = 128;
 
 /// A point of the limit surface.
@@ -21,12 +22,15 @@ pub struct Sample {
     pub du: DVec3,
     /// Derivative along t.
     pub dv: DVec3,
-    /// Unit normal, towards the side from which the faces are counter-clockwise; zero where `du` x `dv` vanishes and no limit of normals replaces it.
+    /// Unit normal, towards the side from which the faces are counter-clockwise; zero where `du` x
+    /// `dv` vanishes and no limit of normals replaces it.
     pub normal: DVec3,
-    /// Whether the sample is at an irregular vertex of the surface: an interior vertex of valence other than 4, or a boundary vertex of a number of faces
-    /// other than 2, but for a fixed corner of one face. The centre of a face that is not a quad is such a vertex. The surface has no derivatives there
-    /// (one face under [`Boundary::EdgeOnly`] excepted): `du` and `dv` span its tangent plane, along the sides of the quad where these have distinct
-    /// directions, and their lengths are a convention.
+    /// Whether the sample is at an irregular vertex of the surface: an interior vertex of valence
+    /// other than 4, or a boundary vertex of a number of faces other than 2, but for a fixed corner
+    /// of one face. The centre of a face that is not a quad is such a vertex. The surface has no
+    /// derivatives there (one face under [`Boundary::EdgeOnly`] excepted): `du` and `dv` span its
+    /// tangent plane, along the sides of the quad where these have distinct directions, and their
+    /// lengths are a convention.
     pub irregular: bool,
 }
 
@@ -64,8 +68,10 @@ pub enum EvalError {
     },
 }
 
-/// Evaluates the limit surface of a mesh. Holds no more than the mesh's half-edges and keeps nothing between samples, so it can be shared by threads; a sample
-/// costs a few microseconds at low valence, in proportion to the size of the neighbourhood and to the logarithm of the distance from an irregular vertex.
+/// Evaluates the limit surface of a mesh. Holds no more than the mesh's half-edges and keeps
+/// nothing between samples, so it can be shared by threads; a sample costs a few microseconds at
+/// low valence, in proportion to the size of the neighbourhood and to the logarithm of the distance
+/// from an irregular vertex.
 #[derive(Debug)]
 pub struct Reference<'a> {
     mesh: &'a Mesh,
@@ -73,7 +79,8 @@ pub struct Reference<'a> {
     rule: Boundary,
 }
 
-/// Where in the unit square of a neighbourhood the sample lies. Halving and doubling are exact in floating point.
+/// Where in the unit square of a neighbourhood the sample lies. Halving and doubling are exact in
+/// floating point.
 #[derive(Clone, Copy, Debug)]
 struct Place {
     s: f64,
@@ -113,7 +120,8 @@ impl<'a> Reference<'a> {
         Ok(Self { mesh, topology: Topology::new(mesh)?, rule })
     }
 
-    /// The limit surface of face `face`, sub-face `sub`, at (s,t) in its unit square; see the [sampling convention](super#sampling-convention).
+    /// The limit surface of face `face`, sub-face `sub`, at (s,t) in its unit square; see the
+    /// [sampling convention](super#sampling-convention).
     ///
     /// # Errors
     /// If the face or sub-face does not exist, or (s,t) is outside the unit square.
@@ -122,7 +130,8 @@ impl<'a> Reference<'a> {
         if !((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)) {
             return Err(EvalError::OutsideUnitSquare { s, t });
         }
-        // Differences of input points are exact to rounding, so a mesh far from the origin loses nothing.
+        // Differences of input points are exact to rounding, so a mesh far from the origin loses
+        // nothing.
         let origin = self.mesh.positions[self.mesh.face(face)[0] as usize];
         let stars = self.refined_stars(face, origin);
         let place = Place { s, t };
@@ -156,7 +165,8 @@ impl<'a> Reference<'a> {
         half_edges.map(|half_edge| self.refined_star(half_edge, origin)).collect()
     }
 
-    /// The star of the vertex that `half_edge` leaves, after the one step that turns faces of any size into quads.
+    /// The star of the vertex that `half_edge` leaves, after the one step that turns faces of any
+    /// size into quads.
     fn refined_star(&self, half_edge: u32, origin: DVec3) -> Star {
         let (mesh, topology) = (self.mesh, &self.topology);
         let point = |vertex: u32| mesh.positions[vertex as usize] - origin;
@@ -182,7 +192,8 @@ struct Descent {
     place: Place,
     /// Where the zero of the quad's points is.
     origin: DVec3,
-    /// How many times longer a derivative over the sample's unit square is than one over the quad's.
+    /// How many times longer a derivative over the sample's unit square is than one over the
+    /// quad's.
     scale: f64,
 }
 
@@ -209,8 +220,9 @@ impl Descent {
         self.scale *= 2.0;
     }
 
-    /// Puts the zero at the limit of the irregular vertex. The quad shrinks towards that point, and rounding errors, which are relative to the distance from
-    /// zero, shrink with it: directions stay accurate at any depth.
+    /// Puts the zero at the limit of the irregular vertex. The quad shrinks towards that point, and
+    /// rounding errors, which are relative to the distance from zero, shrink with it: directions
+    /// stay accurate at any depth.
     fn recentre(&mut self, rule: Boundary) {
         if let Some(corner) = self.quad.irregular_corner(rule) {
             let limit = self.quad.stars[corner].limit_position(rule);

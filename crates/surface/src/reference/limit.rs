@@ -1,9 +1,10 @@
 //! Limit masks: where the centre of a star ends, and the plane that touches the surface there.
 //!
-//! A mask is a left eigenvector of the linear map that refines a star: applied to the refined star it gives its value on the star times the eigenvalue
-//! (the tests below check every mask this way). The position mask has eigenvalue 1, tangent masks the largest eigenvalues below 1.
-//! Interior vertices: M. Halstead, M. Kass, T. DeRose, *Efficient, fair interpolation using Catmull-Clark surfaces*, SIGGRAPH 1993, appendix A. Boundary
-//! vertices: [`inward`] is derived there.
+//! A mask is a left eigenvector of the linear map that refines a star: applied to the refined star
+//! it gives its value on the star times the eigenvalue (the tests below check every mask this way).
+//! The position mask has eigenvalue 1, tangent masks the largest eigenvalues below 1. Interior
+//! vertices: M. Halstead, M. Kass, T. DeRose, *Efficient, fair interpolation using Catmull-Clark
+//! surfaces*, SIGGRAPH 1993, appendix A. Boundary vertices: [`inward`] is derived there.
 
 use std::f64::consts::{PI, TAU};
 
@@ -12,8 +13,9 @@ use glam::DVec3;
 use super::Boundary;
 use super::star::{Kind, Star};
 
-/// The tangent plane at the centre of a star. The directions lie along the core quad's sides that meet there; their lengths follow the parameter where the
-/// surface has a derivative and are a convention where it has none.
+/// The tangent plane at the centre of a star. The directions lie along the core quad's sides that
+/// meet there; their lengths follow the parameter where the surface has a derivative and are a
+/// convention where it has none.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tangents {
     /// Along the side that leaves the centre.
@@ -24,7 +26,8 @@ pub(super) struct Tangents {
     pub(super) normal: DVec3,
 }
 
-/// The unit vector along `a` x `b`, or zero where rounding decides its direction. Safe for vectors of any length.
+/// The unit vector along `a` x `b`, or zero where rounding decides its direction. Safe for vectors
+/// of any length.
 pub(super) fn unit_cross(a: DVec3, b: DVec3) -> DVec3 {
     /// Sine of the angle below which two directions computed in f64 cannot be told apart.
     const PARALLEL: f64 = 64.0 * f64::EPSILON;
@@ -65,8 +68,10 @@ impl Star {
         }
     }
 
-    /// The interior tangent mask turned by `turns` from the core's first spoke: cos(angle) at the end of each spoke times 1 + c + cos(pi/n) sqrt(2(9+c)),
-    /// c = cos(2 pi/n), and at each diagonal the sum of the cosines of the spokes beside it. Divided so that it is the derivative for n = 4.
+    /// The interior tangent mask turned by `turns` from the core's first spoke: cos(angle) at the
+    /// end of each spoke times 1 + c + cos(pi/n) sqrt(2(9+c)), c = cos(2 pi/n), and at each
+    /// diagonal the sum of the cosines of the spokes beside it. Divided so that it is the
+    /// derivative for n = 4.
     fn turned_sum(&self, turns: f64) -> DVec3 {
         let n = self.diagonals.len();
         let c = (TAU / n as f64).cos();
@@ -76,17 +81,19 @@ impl Star {
         (0..n).map(term).sum::<DVec3>() / (3.0 * n as f64)
     }
 
-    /// Valence 2 has no tangent plane in general: the difference of the spokes, that of the diagonals and a combination that is alike on both sides (and
-    /// changes sign with each step) all shrink by 1/4. The two differences span the plane about which the surface wavers.
+    /// Valence 2 has no tangent plane in general: the difference of the spokes, that of the
+    /// diagonals and a combination that is alike on both sides (and changes sign with each step)
+    /// all shrink by 1/4. The two differences span the plane about which the surface wavers.
     fn valence_two_tangents(&self) -> Tangents {
         let across = 0.5 * (self.leaving() - self.arriving());
         let between = self.diagonals[self.core] - self.diagonals[(self.core + 1) % 2];
         Tangents { leaving: across, arriving: -across, normal: unit_cross(across, between) }
     }
 
-    /// A vertex with one quad. A fixed corner has the tangents of its sides. A smoothed one touches the line through its neighbours and both parameter
-    /// directions are parallel to it, but the normals nearby tend to that of the sides, since refining turns their cross product into 1/8 of itself;
-    /// with collinear sides the diagonal takes the place of the missing direction.
+    /// A vertex with one quad. A fixed corner has the tangents of its sides. A smoothed one touches
+    /// the line through its neighbours and both parameter directions are parallel to it, but the
+    /// normals nearby tend to that of the sides, since refining turns their cross product into 1/8
+    /// of itself; with collinear sides the diagonal takes the place of the missing direction.
     fn single_quad_tangents(&self, rule: Boundary) -> Tangents {
         let (first, last) = (self.spokes[0] - self.centre, self.spokes[1] - self.centre);
         let along = 0.5 * (first - last);
@@ -105,16 +112,26 @@ fn fan_tangents(x: DVec3, y: DVec3, angle: f64, step: f64) -> Tangents {
     Tangents { leaving: direction(angle), arriving: direction(angle + step), normal: unit_cross(x, y) }
 }
 
-/// The direction in which the surface leaves the boundary at a crease star of `k` >= 2 quads, for k = 2 the cross derivative.
+/// The direction in which the surface leaves the boundary at a crease star of `k` >= 2 quads, for
+/// k = 2 the cross derivative.
 ///
-/// In a star whose boundary spokes and centre are zero, refinement acts on the inner points as around an interior vertex of valence 2k on waves that are odd
-/// about the boundary. With theta = pi/k and c = cos(theta), the longest such wave, sin(i theta) on spoke i and a multiple of sin((i + 1/2) theta) on
-/// diagonal i, has the largest eigenvalue, lambda = (5 + c + sqrt((1+c)(9+c)))/16. Its left eigenvector has sin(i theta) on spoke i, g sin((i + 1/2) theta)
-/// on diagonal i with g = cos(theta/2) / (8 (lambda - 1/4)): diagonal' = (centre + spokes + diagonal)/4 and spoke' = (3/8, 1/16, 1/16) of
-/// (itself and the centre, neighbouring spokes, diagonals beside it) give both equations. Of a refined star, the inner points take
-/// a = (3/8) cot(theta/2) + g / (4 sin(theta/2)) from the centre and b = sin(theta)/16 + g sin(theta/2)/4 from either boundary spoke. With the boundary's
-/// own rules, centre' = (3/4, 1/8, 1/8) and spoke' = (1/2, 1/2), the weights p of the centre and q of the boundary spokes satisfy
-/// lambda p = 3/4 p + q + a and lambda q = p/8 + q/2 + b.
+/// If the centre and the boundary spokes are zero, refinement acts on the inner points as around an
+/// interior vertex of valence 2k on waves that are odd about the boundary. The longest of these,
+/// sin(i theta) on spoke i and a multiple of sin((i + 1/2) theta) on diagonal i with theta = pi/k,
+/// has the largest eigenvalue, lambda. Its left eigenvector weighs spoke i by sin(i theta) and
+/// diagonal i by g sin((i + 1/2) theta).
+///
+/// The weights p of the centre and q of either boundary spoke follow from their own rules,
+/// centre' = (3/4, 1/8, 1/8) and spoke' = (1/2, 1/2), and from what they give to the refined inner
+/// points, of total weight a from the centre and b from a boundary spoke:
+/// ```text
+/// lambda   = (5 + c + sqrt((1 + c)(9 + c))) / 16,  c = cos(theta)
+/// g        = cos(theta/2) / (8 (lambda - 1/4))
+/// a        = 3/8 cot(theta/2) + g / (4 sin(theta/2))
+/// b        = sin(theta)/16 + g sin(theta/2)/4
+/// lambda p = 3/4 p + q + a
+/// lambda q = 1/8 p + 1/2 q + b
+/// ```
 fn inward(star: &Star) -> DVec3 {
     let k = star.diagonals.len();
     let theta = PI / k as f64;

@@ -4,12 +4,14 @@ use glam::DVec3;
 
 use super::topology::Topology;
 
-/// A polygon mesh: manifold, consistently wound, every face with three or more distinct vertices. [`Mesh::validate`] says whether it is.
+/// A polygon mesh: manifold, consistently wound, every face with three or more distinct vertices.
+/// [`Mesh::validate`] says whether it is.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// One point per vertex. Vertices that no face uses are allowed and ignored.
     pub positions: Vec<DVec3>,
-    /// Start of each face in `face_vertices`, and after the last face the total: one more entry than faces, the first is 0.
+    /// Start of each face in `face_vertices`, and after the last face the total: one more entry
+    /// than faces, the first is 0.
     pub face_offsets: Vec<u32>,
     /// The vertices of all faces, counter-clockwise seen from outside.
     pub face_vertices: Vec<u32>,

@@ -1,10 +1,13 @@
 //! The exact limit surface in f64: what every other evaluation of a cage is judged by.
 //!
-//! A point is found by subdividing the neighbourhood of its face, always towards the child that holds the point, until that child is a regular bicubic
-//! B-spline patch; at a vertex that no such patch reaches, limit masks answer. The descent works on plain averages of points, with no basis change and
-//! no eigenvectors, so that it shares nothing with the patch schemes it judges:
-//! E. Catmull, J. Clark, *Recursively generated B-spline surfaces on arbitrary topological meshes*, Computer-Aided Design 10(6), 1978 (rules);
-//! M. Halstead, M. Kass, T. DeRose, *Efficient, fair interpolation using Catmull-Clark surfaces*, SIGGRAPH 1993, appendix A (masks at interior vertices).
+//! A point is found by subdividing the neighbourhood of its face, always towards the child that
+//! holds the point, until that child is a regular bicubic B-spline patch; at a vertex that no such
+//! patch reaches, limit masks answer. The descent works on plain averages of points, with no basis
+//! change and no eigenvectors, so that it shares nothing with the patch schemes it judges: E.
+//! Catmull, J. Clark, *Recursively generated B-spline surfaces on arbitrary topological meshes*,
+//! Computer-Aided Design 10(6), 1978 (rules); M. Halstead, M. Kass, T. DeRose, *Efficient, fair
+//! interpolation using Catmull-Clark surfaces*, SIGGRAPH 1993, appendix A (masks at interior
+//! vertices).
 //!
 //! | file | idea |
 //! |---|---|
@@ -18,9 +21,10 @@
 //! | `evaluator` | [`Reference`]: the descent |
 //!
 //! # Sampling convention
-//! A quad face has `sub = -1` and (s,t) = (0,0), (1,0), (1,1), (0,1) at its vertices 0 to 3. A face of any other size `n` has `sub` in `0..n`, the
-//! Catmull-Clark child quad at its vertex `sub`: (0,0) is that vertex, (1,0) the midpoint of the edge to the next vertex, (1,1) the centre of the face,
-//! (0,1) the midpoint of the edge to the previous vertex.
+//! A quad face has `sub = -1` and (s,t) = (0,0), (1,0), (1,1), (0,1) at its vertices 0 to 3. A face
+//! of any other size `n` has `sub` in `0..n`, the Catmull-Clark child quad at its vertex `sub`:
+//! (0,0) is that vertex, (1,0) the midpoint of the edge to the next vertex, (1,1) the centre of the
+//! face, (0,1) the midpoint of the edge to the previous vertex.
 
 mod bicubic;
 mod evaluator;
@@ -35,11 +39,13 @@ pub use evaluator::{EvalError, Reference, Sample};
 pub use mesh::{Mesh, MeshError};
 pub use subdivide::Refined;
 
-/// What happens to the surface at the boundary of the cage. Boundary edges are always refined to their midpoints and boundary vertices by weights 1:6:1,
-/// which makes the boundary a uniform cubic B-spline curve.
+/// What happens to the surface at the boundary of the cage. Boundary edges are always refined to
+/// their midpoints and boundary vertices by weights 1:6:1, which makes the boundary a uniform cubic
+/// B-spline curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Boundary {
-    /// A boundary vertex with only one face is a corner: it stays fixed, and the surface passes through it.
+    /// A boundary vertex with only one face is a corner: it stays fixed, and the surface passes
+    /// through it.
     #[default]
     EdgeAndCorner,
     /// Boundary vertices with only one face are smoothed like all others.

@@ -1,4 +1,5 @@
-//! A quad and everything that decides its limit surface: the quads that touch it, held as the stars of its four corners.
+//! A quad and everything that decides its limit surface: the quads that touch it, held as the stars
+//! of its four corners.
 
 use glam::DVec3;
 
@@ -6,16 +7,18 @@ use super::Boundary;
 use super::bicubic::Grid;
 use super::star::Star;
 
-/// The stars of the corners of a quad, each with the quad as its core. Corner 0 is at (s,t) = (0,0), 1 at (1,0), 2 at (1,1), 3 at (0,1).
-/// Points shared by several stars are held in each of them, which spares all bookkeeping of indices.
+/// The stars of the corners of a quad, each with the quad as its core. Corner 0 is at (s,t) =
+/// (0,0), 1 at (1,0), 2 at (1,1), 3 at (0,1). Points shared by several stars are held in each of
+/// them, which spares all bookkeeping of indices.
 #[derive(Clone, Debug)]
 pub(super) struct Neighbourhood {
     pub(super) stars: [Star; 4],
 }
 
 impl Neighbourhood {
-    /// The child quad at corner `corner` of a face, from the refined stars around all corners of the face. Its corners are: the vertex point, the edge
-    /// point to the next corner, the face point, the edge point to the previous corner.
+    /// The child quad at corner `corner` of a face, from the refined stars around all corners of
+    /// the face. Its corners are: the vertex point, the edge point to the next corner, the face
+    /// point, the edge point to the previous corner.
     pub(super) fn of_child(refined: &[Star], corner: usize) -> Self {
         let n = refined.len();
         let (here, next, previous) = (&refined[corner], &refined[(corner + 1) % n], &refined[(corner + n - 1) % n]);
@@ -29,7 +32,8 @@ impl Neighbourhood {
         }
     }
 
-    /// The child at corner `corner` of this quad, turned so that its (s,t) run as those of the quad.
+    /// The child at corner `corner` of this quad, turned so that its (s,t) run as those of the
+    /// quad.
     pub(super) fn child(&self, corner: usize, rule: Boundary) -> Self {
         Self::of_child(&self.stars.each_ref().map(|star| star.refine(rule)), corner).turned(corner)
     }
@@ -40,7 +44,8 @@ impl Neighbourhood {
         self
     }
 
-    /// The first corner at an irregular vertex. One step after the first all quads have at most one.
+    /// The first corner at an irregular vertex. One step after the first all quads have at most
+    /// one.
     pub(super) fn irregular_corner(&self, rule: Boundary) -> Option<usize> {
         self.stars.iter().position(|star| !star.is_regular(rule))
     }
@@ -52,8 +57,10 @@ impl Neighbourhood {
         }
     }
 
-    /// The bicubic control grid of the quad if all its corners are regular. Beyond a boundary it holds reflected points, 2a - b, with which the tensor
-    /// rules of uniform cubic splines reproduce the rules of the boundary: 1:6:1 leaves (6 a + b + (2a - b))/8 = a of the column across the boundary.
+    /// The bicubic control grid of the quad if all its corners are regular. Beyond a boundary it
+    /// holds reflected points, 2a - b, with which the tensor rules of uniform cubic splines
+    /// reproduce the rules of the boundary: 1:6:1 leaves (6 a + b + (2a - b))/8 = a of the column
+    /// across the boundary.
     pub(super) fn regular_grid(&self, rule: Boundary) -> Option<Grid> {
         if self.irregular_corner(rule).is_some() {
             return None;
@@ -121,7 +128,8 @@ fn face_star(refined: &[Star], corner: usize) -> Star {
 struct PartialGrid([[Option<DVec3>; 4]; 4]);
 
 impl PartialGrid {
-    /// Enters a star of valence four (or its part inside the boundary): the grid runs on straight through its centre.
+    /// Enters a star of valence four (or its part inside the boundary): the grid runs on straight
+    /// through its centre.
     fn add(&mut self, corner: usize, star: &Star) {
         /// Around a star, from the first spoke of the core: each spoke, then the diagonal after it.
         const STEPS: [(i32, i32); 8] = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)];
@@ -139,7 +147,8 @@ impl PartialGrid {
         }
     }
 
-    /// Completes the grid with reflected points: rows first, then across them, so that a corner is reflected twice.
+    /// Completes the grid with reflected points: rows first, then across them, so that a corner is
+    /// reflected twice.
     fn reflected(self) -> Option<Grid> {
         let [below, first, second, above] = self.0.map(reflected_row);
         let (first, second) = (first?, second?);

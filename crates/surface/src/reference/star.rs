@@ -1,13 +1,16 @@
-//! A star: one vertex and the quads around it, refined as a whole. What a subdivision step does around a vertex needs nothing but its star.
+//! A star: one vertex and the quads around it, refined as a whole. What a subdivision step does
+//! around a vertex needs nothing but its star.
 
 use glam::DVec3;
 
 use super::Boundary;
 
-/// A vertex and its ring of quads, counter-clockwise: quad `i` is (`centre`, `spokes[i]`, `diagonals[i]`, `spokes[i + 1]`).
+/// A vertex and its ring of quads, counter-clockwise: quad `i` is (`centre`, `spokes[i]`,
+/// `diagonals[i]`, `spokes[i + 1]`).
 ///
-/// A closed star has as many spokes as quads. An open one, at the boundary, has one spoke more; its first and last spokes are boundary edges.
-/// One of the quads is the core, the quad that the descent is in; spokes and quads are asked for by their number counted from it.
+/// A closed star has as many spokes as quads. An open one, at the boundary, has one spoke more; its
+/// first and last spokes are boundary edges. One of the quads is the core, the quad that the
+/// descent is in; spokes and quads are asked for by their number counted from it.
 #[derive(Clone, Debug)]
 pub(super) struct Star {
     pub(super) centre: DVec3,
@@ -48,7 +51,8 @@ impl Star {
         Kind::of(self.spokes.len(), self.diagonals.len(), rule)
     }
 
-    /// Whether the surface around the centre is made of bicubic B-spline patches (with reflected points beyond a boundary).
+    /// Whether the surface around the centre is made of bicubic B-spline patches (with reflected
+    /// points beyond a boundary).
     pub(super) fn is_regular(&self, rule: Boundary) -> bool {
         match self.kind(rule) {
             Kind::Interior => self.diagonals.len() == 4,
@@ -57,7 +61,8 @@ impl Star {
         }
     }
 
-    /// Spoke number `i` counted from the core quad's first; negative numbers are clockwise of it. `None` beyond the boundary.
+    /// Spoke number `i` counted from the core quad's first; negative numbers are clockwise of it.
+    /// `None` beyond the boundary.
     pub(super) fn spoke(&self, i: i32) -> Option<DVec3> {
         self.counted(&self.spokes, i)
     }
@@ -101,7 +106,8 @@ impl Star {
     }
 }
 
-/// What refining a vertex needs to know of the faces around it, which may have any size. Counter-clockwise and open or closed as a [`Star`].
+/// What refining a vertex needs to know of the faces around it, which may have any size.
+/// Counter-clockwise and open or closed as a [`Star`].
 pub(super) struct Ring<'a> {
     pub(super) centre: DVec3,
     /// The neighbours along the edges.
@@ -112,7 +118,8 @@ pub(super) struct Ring<'a> {
 }
 
 impl Ring<'_> {
-    /// The star around the vertex one level finer: its new neighbours are edge points and face points.
+    /// The star around the vertex one level finer: its new neighbours are edge points and face
+    /// points.
     pub(super) fn refine(self, rule: Boundary) -> Star {
         let spokes = (0..self.spokes.len()).map(|i| self.edge_point(i)).collect();
         Star { centre: self.vertex_point(rule), spokes, diagonals: self.face_points, core: self.core }
@@ -129,7 +136,8 @@ impl Ring<'_> {
         0.25 * (ends + self.face_points[(i + faces - 1) % faces] + self.face_points[i])
     }
 
-    /// Weights (n-2)/n, 1/n^2, 1/n^2 of the vertex, its n neighbours and its n face points; on the boundary 6:1:1 along the boundary.
+    /// Weights (n-2)/n, 1/n^2, 1/n^2 of the vertex, its n neighbours and its n face points; on the
+    /// boundary 6:1:1 along the boundary.
     fn vertex_point(&self, rule: Boundary) -> DVec3 {
         match Kind::of(self.spokes.len(), self.face_points.len(), rule) {
             Kind::Corner => self.centre,

@@ -1,5 +1,6 @@
-//! One step of Catmull-Clark subdivision of a whole mesh, by sums over its faces and edges. It shares no code with the descent of the evaluator, which
-//! refines one ring at a time, so that each can check the other.
+//! One step of Catmull-Clark subdivision of a whole mesh, by sums over its faces and edges. It
+//! shares no code with the descent of the evaluator, which refines one ring at a time, so that each
+//! can check the other.
 
 use std::collections::HashMap;
 
@@ -7,11 +8,13 @@ use glam::DVec3;
 
 use super::{Boundary, Mesh};
 
-/// A mesh after one step of subdivision, and where its points came from. All faces are quads; child `c` of a face is
-/// (vertex point, edge point to the next vertex, face point, edge point to the previous vertex), and children are numbered by the parent's corners.
+/// A mesh after one step of subdivision, and where its points came from. All faces are quads; child
+/// `c` of a face is (vertex point, edge point to the next vertex, face point, edge point to the
+/// previous vertex), and children are numbered by the parent's corners.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Refined {
-    /// The refined mesh. Its points are the face points, then the edge points in the order in which the faces first meet the edges, then the vertex points.
+    /// The refined mesh. Its points are the face points, then the edge points in the order in which
+    /// the faces first meet the edges, then the vertex points.
     pub mesh: Mesh,
     edge_points: HashMap<(u32, u32), u32>,
     first_vertex_point: u32,
@@ -23,7 +26,8 @@ impl Refined {
         face
     }
 
-    /// The new point on the edge between vertices `a` and `b` of the coarse mesh, in either order; `None` if they share no edge.
+    /// The new point on the edge between vertices `a` and `b` of the coarse mesh, in either order;
+    /// `None` if they share no edge.
     pub fn edge_point(&self, a: u32, b: u32) -> Option<u32> {
         self.edge_points.get(&undirected(a, b)).copied()
     }
@@ -144,7 +148,8 @@ struct Surroundings {
 }
 
 impl Surroundings {
-    /// The vertex point: weights (n-2)/n, 1/n^2, 1/n^2 of the vertex, its n neighbours and its n face points; on the boundary 6:1:1 along the boundary.
+    /// The vertex point: weights (n-2)/n, 1/n^2, 1/n^2 of the vertex, its n neighbours and its n
+    /// face points; on the boundary 6:1:1 along the boundary.
     fn vertex_point(&self, vertex: DVec3, rule: Boundary) -> DVec3 {
         if self.faces == 0 || (self.faces == 1 && rule == Boundary::EdgeAndCorner) {
             return vertex;

@@ -1,10 +1,12 @@
-//! Half-edges of a mesh. A half-edge is a face corner: half-edge `h` runs from its vertex to the next vertex of the face, with the face on its left.
+//! Half-edges of a mesh. A half-edge is a face corner: half-edge `h` runs from its vertex to the
+//! next vertex of the face, with the face on its left.
 
 use std::collections::HashMap;
 
 use super::{Mesh, MeshError};
 
-/// Who is across each half-edge. Built only for valid meshes, so walking around a vertex always ends.
+/// Who is across each half-edge. Built only for valid meshes, so walking around a vertex always
+/// ends.
 #[derive(Debug)]
 pub(super) struct Topology {
     faces: Vec<u32>,

@@ -1,0 +1,7 @@
+//! The exact evaluator against brute force and against what must hold for any limit surface.
+
+mod brute_force;
+mod cages;
+mod smoothness;
+mod symmetry;
+mod vertices;
