@@ -1,0 +1,324 @@
+//! Buffers.
+
+use std::{
+    ops::{Bound, Range, RangeBounds},
+    sync::{
+        Arc,
+        atomic::{AtomicU64, Ordering},
+    },
+};
+
+use ash::vk;
+use bytemuck::{NoUninit, Pod};
+use gpu_allocator::MemoryLocation;
+
+use crate::{Device, GpuError, Recording, memory::Block, owned::Owned, resource::ResourceId};
+
+bitflags::bitflags! {
+    /// What a buffer is for; copying from and to it is always allowed.
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+    pub struct BufferUsage: u32 {
+        /// Storage buffer of a shader.
+        const STORAGE = 1;
+        /// Uniform buffer of a shader.
+        const UNIFORM = 2;
+        /// Index buffer of a draw.
+        const INDEX = 4;
+        /// Target of a capture pass; needs transform feedback.
+        const CAPTURE = 8;
+    }
+}
+
+/// Where a buffer lives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
+pub enum Memory {
+    /// Fastest for the device. Filled by [`Device::upload`] or by passes, read by [`Device::download`].
+    #[default]
+    Device,
+    /// Written by the host with [`Buffer::write`], often.
+    Upload,
+    /// Written by passes, read by the host with [`Buffer::read`].
+    Readback,
+}
+
+/// How to make a buffer.
+#[derive(Clone, Copy, Debug)]
+pub struct BufferDesc<'a> {
+    /// Name for tools and messages.
+    pub name: &'a str,
+    /// Size in bytes; may be 0.
+    pub size: u64,
+    /// What it is for.
+    pub usage: BufferUsage,
+    /// Where it lives.
+    pub memory: Memory,
+}
+
+/// A piece of memory that shaders and passes use. Clones share it.
+#[derive(Clone)]
+pub struct Buffer {
+    inner: Arc<Inner>,
+}
+
+/// Field order is destruction order: the buffer before its memory.
+struct Inner {
+    raw: Owned<vk::Buffer>,
+    block: Block,
+    id: ResourceId,
+    name: String,
+    size: u64,
+    /// Bytes that Vulkan knows of: at least one word, so that empty buffers can be bound.
+    real_size: u64,
+    usage: BufferUsage,
+    memory: Memory,
+    /// Timeline value of the last submission that uses the buffer.
+    last_use: AtomicU64,
+    device: Device,
+}
+
+impl Device {
+    /// Makes a buffer. What is in it is undefined until written.
+    pub fn buffer(&self, desc: &BufferDesc<'_>) -> Result<Buffer, GpuError> {
+        if desc.usage.contains(BufferUsage::CAPTURE) && !self.info().features.transform_feedback {
+            return Err(self.missing(format!("buffer {:?}", desc.name), "VK_EXT_transform_feedback"));
+        }
+        let limit = self.info().limits.max_memory_allocation;
+        if desc.size > limit {
+            return Err(GpuError::Limit {
+                what: format!("size of buffer {:?} in bytes", desc.name),
+                value: desc.size,
+                limit,
+            });
+        }
+        let real_size = desc.size.max(4).next_multiple_of(4);
+        let info = vk::BufferCreateInfo::default().size(real_size).usage(usage_flags(desc.usage));
+        // SAFETY: the size is not zero and the usage is one the device has.
+        let raw = unsafe { self.raw().create_buffer(&info, None) }
+            .map_err(|result| GpuError::from_vulkan(format!("creating buffer {:?}", desc.name), result))?;
+        let raw = Owned::new(&self.shared.raw, raw, desc.name);
+        // SAFETY: the buffer was made by this device.
+        let requirements = unsafe { self.raw().get_buffer_memory_requirements(raw.raw) };
+        let location = match desc.memory {
+            Memory::Device => MemoryLocation::GpuOnly,
+            Memory::Upload => MemoryLocation::CpuToGpu,
+            Memory::Readback => MemoryLocation::GpuToCpu,
+        };
+        let block = self.shared.memory.allocate(desc.name, requirements, location, true)?;
+        let (memory, offset) = block.place();
+        // SAFETY: buffer and memory are of this device, the memory meets the buffer's requirements and outlives it, since
+        // `Inner` drops it later.
+        unsafe { self.raw().bind_buffer_memory(raw.raw, memory, offset) }
+            .map_err(|result| GpuError::from_vulkan(format!("binding memory to buffer {:?}", desc.name), result))?;
+        let inner = Inner {
+            raw,
+            block,
+            id: ResourceId::new(),
+            name: desc.name.to_owned(),
+            size: desc.size,
+            real_size,
+            usage: desc.usage,
+            memory: desc.memory,
+            last_use: AtomicU64::new(0),
+            device: self.clone(),
+        };
+        Ok(Buffer { inner: Arc::new(inner) })
+    }
+
+    /// Makes a buffer in device memory that holds `data`. Goes through a staging buffer and waits for it, unless the host sees
+    /// the device's memory, as on llvmpipe.
+    pub fn upload<T: NoUninit>(&self, name: &str, usage: BufferUsage, data: &[T]) -> Result<Buffer, GpuError> {
+        let bytes: &[u8] = bytemuck::cast_slice(data);
+        let size = bytes.len() as u64;
+        let buffer = self.buffer(&BufferDesc { name, size, usage, memory: Memory::Device })?;
+        if buffer.inner.block.mapped().is_some() {
+            buffer.write_bytes(0, bytes)?;
+        } else if size > 0 {
+            let staging = self.staging(name, size, Memory::Upload)?;
+            staging.write_bytes(0, bytes)?;
+            self.copy_now(&staging, 0..size, &buffer)?;
+        }
+        Ok(buffer)
+    }
+
+    /// Reads bytes of any buffer, through a staging buffer, and waits for it. `bytes` must hold whole elements.
+    pub fn download<T: Pod>(&self, buffer: &Buffer, bytes: impl RangeBounds<u64>) -> Result<Vec<T>, GpuError> {
+        let range = buffer.resolve(bytes, "a download")?;
+        let size = range.end - range.start;
+        if size == 0 {
+            return Ok(Vec::new());
+        }
+        let staging = self.staging(buffer.name(), size, Memory::Readback)?;
+        self.copy_now(buffer, range, &staging)?;
+        staging.read(..size)
+    }
+
+    fn staging(&self, name: &str, size: u64, memory: Memory) -> Result<Buffer, GpuError> {
+        let name = format!("staging of {name}");
+        self.buffer(&BufferDesc { name: &name, size, usage: BufferUsage::empty(), memory })
+    }
+
+    fn copy_now(&self, source: &Buffer, range: Range<u64>, target: &Buffer) -> Result<(), GpuError> {
+        let mut recording = Recording::new();
+        recording.copy_buffer(source, range, target, 0);
+        self.submit(&recording)?.wait().map(drop)
+    }
+}
+
+impl Buffer {
+    /// The name it was made with.
+    pub fn name(&self) -> &str {
+        &self.inner.name
+    }
+
+    /// Size in bytes.
+    pub fn size(&self) -> u64 {
+        self.inner.size
+    }
+
+    /// What it is for.
+    pub fn usage(&self) -> BufferUsage {
+        self.inner.usage
+    }
+
+    /// Where it lives.
+    pub fn memory(&self) -> Memory {
+        self.inner.memory
+    }
+
+    /// Writes `data` at `offset` bytes. Only for [`Memory::Upload`]. Waits until submissions that use the buffer are done.
+    pub fn write<T: NoUninit>(&self, offset: u64, data: &[T]) -> Result<(), GpuError> {
+        if self.inner.memory != Memory::Upload {
+            return Err(self.misuse("writing by the host", "it is not in upload memory; use Device::upload or a copy"));
+        }
+        self.write_bytes(offset, bytemuck::cast_slice(data))
+    }
+
+    /// Reads a range of bytes as elements. Only for [`Memory::Readback`]. Waits until submissions that use the buffer are done.
+    pub fn read<T: Pod>(&self, bytes: impl RangeBounds<u64>) -> Result<Vec<T>, GpuError> {
+        const WHAT: &str = "reading by the host";
+        if self.inner.memory != Memory::Readback {
+            return Err(self.misuse(WHAT, "it is not in readback memory; use Device::download or a copy"));
+        }
+        let range = self.resolve(bytes, WHAT)?;
+        let size = size_of::<T>() as u64;
+        let count = (range.end - range.start).checked_div(size).unwrap_or(0);
+        if count * size != range.end - range.start {
+            return Err(self.misuse(WHAT, "the range does not hold whole elements"));
+        }
+        let mut data = vec![T::zeroed(); usize::try_from(count).unwrap_or(usize::MAX)];
+        self.read_bytes(range.start, bytemuck::cast_slice_mut(&mut data))?;
+        Ok(data)
+    }
+
+    /// Copies host bytes into memory that the host sees.
+    fn write_bytes(&self, offset: u64, bytes: &[u8]) -> Result<(), GpuError> {
+        let (target, length) = self.mapped(offset, bytes.len(), "writing by the host")?;
+        // SAFETY: `mapped` checked that `length` bytes from `target` lie in this buffer's mapped memory, which lives as long as
+        // self; the source is a slice of that length; the two cannot overlap, since the mapping is never lent out. The GPU is
+        // done with earlier submissions, and makes host writes visible to later ones.
+        unsafe { target.copy_from_nonoverlapping(std::ptr::NonNull::from(bytes).cast(), length) };
+        Ok(())
+    }
+
+    /// Copies bytes from memory that the host sees.
+    fn read_bytes(&self, offset: u64, bytes: &mut [u8]) -> Result<(), GpuError> {
+        let (source, length) = self.mapped(offset, bytes.len(), "reading by the host")?;
+        // SAFETY: as in `write_bytes`, with the roles exchanged; a submission ends by making its writes visible to the host.
+        unsafe { source.copy_to_nonoverlapping(std::ptr::NonNull::from(bytes).cast(), length) };
+        Ok(())
+    }
+
+    /// Where the host sees `length` bytes at `offset`, once the GPU is done with the buffer.
+    fn mapped(&self, offset: u64, length: usize, what: &str) -> Result<(std::ptr::NonNull<u8>, usize), GpuError> {
+        let end = offset.saturating_add(length as u64);
+        self.check(offset..end, what)?;
+        let pointer = self.inner.block.mapped().ok_or_else(|| self.misuse(what, "the host does not see its memory"))?;
+        self.inner.device.wait_for(self.inner.last_use.load(Ordering::Acquire), what)?;
+        // SAFETY: `check` found that the range ends within the buffer, and the mapping covers the whole of it.
+        Ok((unsafe { pointer.add(usize::try_from(offset).unwrap_or(usize::MAX)) }, length))
+    }
+
+    /// The bytes that a range of any form means.
+    pub(crate) fn resolve(&self, bytes: impl RangeBounds<u64>, what: &str) -> Result<Range<u64>, GpuError> {
+        let start = match bytes.start_bound() {
+            Bound::Included(&start) => start,
+            Bound::Excluded(&start) => start.saturating_add(1),
+            Bound::Unbounded => 0,
+        };
+        let end = match bytes.end_bound() {
+            Bound::Included(&end) => end.saturating_add(1),
+            Bound::Excluded(&end) => end,
+            Bound::Unbounded => self.size(),
+        };
+        self.check(start..end, what)?;
+        Ok(start..end)
+    }
+
+    /// Fails unless the range lies in the buffer.
+    pub(crate) fn check(&self, range: Range<u64>, what: &str) -> Result<(), GpuError> {
+        if range.start <= range.end && range.end <= self.size() {
+            return Ok(());
+        }
+        let (buffer, what) = (self.name().to_owned(), what.to_owned());
+        Err(GpuError::OutOfBounds { buffer, size: self.size(), what, start: range.start, end: range.end })
+    }
+
+    /// Fails unless the buffer was made for this use.
+    pub(crate) fn require(&self, usage: BufferUsage, what: &str) -> Result<(), GpuError> {
+        if self.usage().contains(usage) {
+            return Ok(());
+        }
+        Err(self.misuse(what, "it was not made with that usage"))
+    }
+
+    fn misuse(&self, what: &str, reason: &'static str) -> GpuError {
+        GpuError::BufferUsage { buffer: self.name().to_owned(), what: what.to_owned(), reason }
+    }
+
+    pub(crate) fn raw(&self) -> vk::Buffer {
+        self.inner.raw.raw
+    }
+
+    pub(crate) fn real_size(&self) -> u64 {
+        self.inner.real_size
+    }
+
+    pub(crate) fn id(&self) -> ResourceId {
+        self.inner.id
+    }
+
+    pub(crate) fn device(&self) -> &Device {
+        &self.inner.device
+    }
+
+    /// Remembers a submission that uses the buffer. Called with the queue locked, so values only grow.
+    pub(crate) fn used_by(&self, timeline_value: u64) {
+        self.inner.last_use.store(timeline_value, Ordering::Release);
+    }
+}
+
+impl PartialEq for Buffer {
+    /// Whether both are the same buffer.
+    fn eq(&self, other: &Self) -> bool {
+        self.inner.id == other.inner.id
+    }
+}
+
+impl Eq for Buffer {}
+
+impl std::fmt::Debug for Buffer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Buffer").field("name", &self.name()).field("size", &self.size()).finish()
+    }
+}
+
+fn usage_flags(usage: BufferUsage) -> vk::BufferUsageFlags {
+    let table = [
+        (BufferUsage::STORAGE, vk::BufferUsageFlags::STORAGE_BUFFER),
+        (BufferUsage::UNIFORM, vk::BufferUsageFlags::UNIFORM_BUFFER),
+        (BufferUsage::INDEX, vk::BufferUsageFlags::INDEX_BUFFER),
+        (BufferUsage::CAPTURE, vk::BufferUsageFlags::TRANSFORM_FEEDBACK_BUFFER_EXT),
+    ];
+    let copies = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
+    table.into_iter().filter(|(one, _)| usage.contains(*one)).fold(copies, |flags, (_, flag)| flags | flag)
+}

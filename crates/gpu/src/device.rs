@@ -1,0 +1,227 @@
+//! The device: everything is made from it.
+
+use std::{
+    ffi::{CStr, c_char},
+    sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock},
+};
+
+use ash::{ext, khr, vk};
+
+use crate::{
+    DeviceError, DeviceInfo, GpuError, MessageLog,
+    info::{CacheIdentity, Physical, enumerate},
+    instance::Instance,
+    memory::Memory,
+    owned::{Owned, RawDevice},
+    select::choose,
+    submission::Commands,
+};
+
+/// How to open a device.
+#[derive(Clone, Debug, Default)]
+pub struct DeviceDesc {
+    /// The device's number or a part of its name; `None` takes the best: discrete, integrated, virtual, then CPU.
+    pub select: Option<String>,
+    /// Switches on core and synchronization validation; what it says is in [`Device::validation_messages`].
+    pub validation: bool,
+    /// Name of the program, for drivers and tools.
+    pub application: String,
+}
+
+/// Lists the devices of this machine, those that cannot be opened (see [`DeviceInfo::missing`]) among them.
+pub fn devices() -> Result<Vec<DeviceInfo>, DeviceError> {
+    let instance = Instance::new("osculate", false)?;
+    Ok(enumerate(&instance.raw)?.into_iter().map(|physical| physical.info).collect())
+}
+
+/// An open device. Clones share it; it closes when the last clone and the last object made from it are gone.
+///
+/// All methods may be called from any thread. Submissions run in the order in which they are made.
+#[derive(Clone)]
+pub struct Device {
+    pub(crate) shared: Arc<Shared>,
+}
+
+/// What the clones of a [`Device`] share. Field order is destruction order: children before `raw`.
+pub(crate) struct Shared {
+    queue: Mutex<Queue>,
+    pub(crate) cache: RwLock<Owned<vk::PipelineCache>>,
+    pub(crate) timeline: Owned<vk::Semaphore>,
+    pub(crate) memory: Arc<Memory>,
+    pub(crate) push_descriptor: khr::push_descriptor::Device,
+    /// ash 0.38 has no methods for this extension, only its function pointers.
+    pub(crate) transform_feedback: Option<ext::transform_feedback::Device>,
+    pub(crate) raw: Arc<RawDevice>,
+    pub(crate) info: DeviceInfo,
+    pub(crate) cache_identity: CacheIdentity,
+    /// The bits of a timestamp that count.
+    pub(crate) timestamp_mask: u64,
+    pub(crate) physical: vk::PhysicalDevice,
+    pub(crate) instance: Arc<Instance>,
+}
+
+/// The queue and what is used only together with it.
+pub(crate) struct Queue {
+    pub(crate) raw: vk::Queue,
+    pub(crate) family: u32,
+    /// Value of the timeline that the latest submission reaches.
+    pub(crate) submitted: u64,
+    /// Command buffers that no submission uses.
+    pub(crate) idle: Vec<Commands>,
+}
+
+impl Device {
+    /// Opens a device.
+    pub fn new(desc: &DeviceDesc) -> Result<Self, DeviceError> {
+        let instance = Instance::new(&desc.application, desc.validation)?;
+        let mut devices = enumerate(&instance.raw)?;
+        let infos: Vec<DeviceInfo> = devices.iter().map(|physical| physical.info.clone()).collect();
+        let physical = devices.swap_remove(choose(&infos, desc.select.as_deref())?);
+        let raw = Arc::new(RawDevice::new(Arc::clone(&instance), create_device(&instance, &physical)?));
+        // SAFETY: the device was created with one queue of this family.
+        let queue = unsafe { raw.raw.get_device_queue(physical.queue_family, 0) };
+        raw.set_name(queue, "queue");
+        let memory =
+            Memory::new(&instance, &raw, physical.raw, physical.info.limits.max_memory_allocation).map_err(|_| {
+                DeviceError::Vulkan { operation: "creating the memory allocator", result: vk::Result::ERROR_UNKNOWN }
+            })?;
+        tracing::debug!(device = physical.info.name, driver = physical.info.driver_info, "opened device");
+        let shared = Shared {
+            queue: Mutex::new(Queue { raw: queue, family: physical.queue_family, submitted: 0, idle: Vec::new() }),
+            cache: RwLock::new(empty_cache(&raw)?),
+            timeline: create_timeline(&raw)?,
+            memory,
+            push_descriptor: khr::push_descriptor::Device::new(&instance.raw, &raw.raw),
+            transform_feedback: (physical.info.features.transform_feedback)
+                .then(|| ext::transform_feedback::Device::new(&instance.raw, &raw.raw)),
+            raw,
+            info: physical.info,
+            cache_identity: physical.cache_identity,
+            timestamp_mask: physical.timestamp_mask,
+            physical: physical.raw,
+            instance,
+        };
+        Ok(Self { shared: Arc::new(shared) })
+    }
+
+    /// What the device is and can do.
+    pub fn info(&self) -> &DeviceInfo {
+        &self.shared.info
+    }
+
+    /// All warnings and errors of the validation layers so far; empty without [`DeviceDesc::validation`]. Messages that are
+    /// known not to be defects are left out: `OutputNotConsumed`, since a stage may have outputs that not every pipeline reads.
+    pub fn validation_messages(&self) -> Vec<String> {
+        self.message_log().all()
+    }
+
+    /// The list behind [`Self::validation_messages`]; it outlives the device, so that messages about its end are seen too.
+    pub fn message_log(&self) -> MessageLog {
+        self.shared.instance.messages.clone()
+    }
+
+    /// Waits until everything submitted so far is done.
+    pub fn wait_idle(&self) -> Result<(), GpuError> {
+        let submitted = self.queue().submitted;
+        self.wait_for(submitted, "waiting for the device")
+    }
+
+    pub(crate) fn raw(&self) -> &ash::Device {
+        &self.shared.raw.raw
+    }
+
+    /// Whether both are one device.
+    pub(crate) fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.shared, &other.shared)
+    }
+
+    /// Exclusive use of the queue. After a panic elsewhere its state is still right: it changes only after a submission.
+    pub(crate) fn queue(&self) -> MutexGuard<'_, Queue> {
+        self.shared.queue.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits until the timeline has reached `value`.
+    pub(crate) fn wait_for(&self, value: u64, during: &str) -> Result<(), GpuError> {
+        if value == 0 {
+            return Ok(());
+        }
+        let (semaphores, values) = ([self.shared.timeline.raw], [value]);
+        let info = vk::SemaphoreWaitInfo::default().semaphores(&semaphores).values(&values);
+        // SAFETY: the semaphore belongs to this device and lives as long as self.
+        unsafe { self.raw().wait_semaphores(&info, u64::MAX) }.map_err(|result| GpuError::from_vulkan(during, result))
+    }
+
+    /// The error for a missing optional feature.
+    pub(crate) fn missing(&self, what: impl Into<String>, feature: &'static str) -> GpuError {
+        GpuError::MissingFeature { what: what.into(), feature, device: self.info().name.clone() }
+    }
+}
+
+impl std::fmt::Debug for Device {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_tuple("Device").field(&self.info().name).finish()
+    }
+}
+
+/// Creates the logical device with every feature that [`DeviceInfo::features`] lists.
+fn create_device(instance: &Instance, physical: &Physical) -> Result<ash::Device, DeviceError> {
+    let has = physical.info.features;
+    let core = vk::PhysicalDeviceFeatures::default()
+        .tessellation_shader(true)
+        .robust_buffer_access(true)
+        .fill_mode_non_solid(has.wireframe)
+        .pipeline_statistics_query(has.pipeline_statistics)
+        .vertex_pipeline_stores_and_atomics(has.vertex_stores)
+        .fragment_stores_and_atomics(has.fragment_stores)
+        .geometry_shader(has.geometry)
+        .sample_rate_shading(has.sample_shading)
+        .shader_float64(has.float64)
+        .shader_int64(has.int64)
+        .shader_clip_distance(has.clip_distance);
+    let mut v12 =
+        vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true).scalar_block_layout(has.scalar_layout);
+    let mut v13 =
+        vk::PhysicalDeviceVulkan13Features::default().dynamic_rendering(true).synchronization2(true).maintenance4(true);
+    let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default().transform_feedback(true);
+    let extensions = extension_names(physical);
+    let priorities = [1.0];
+    let queues =
+        [vk::DeviceQueueCreateInfo::default().queue_family_index(physical.queue_family).queue_priorities(&priorities)];
+    let mut info = vk::DeviceCreateInfo::default()
+        .queue_create_infos(&queues)
+        .enabled_extension_names(&extensions)
+        .enabled_features(&core)
+        .push_next(&mut v12)
+        .push_next(&mut v13);
+    if has.transform_feedback {
+        info = info.push_next(&mut feedback);
+    }
+    // SAFETY: all structures live across the call, and the device was found to have these extensions and features.
+    unsafe { instance.raw.create_device(physical.raw, &info, None) }
+        .map_err(|result| DeviceError::Vulkan { operation: "opening the Vulkan device", result })
+}
+
+fn extension_names(physical: &Physical) -> Vec<*const c_char> {
+    let wanted: [(bool, &CStr); 3] = [
+        (physical.extensions.push_descriptor, khr::push_descriptor::NAME),
+        (physical.info.features.transform_feedback, ext::transform_feedback::NAME),
+        (physical.extensions.portability_subset, khr::portability_subset::NAME),
+    ];
+    wanted.into_iter().filter(|(has, _)| *has).map(|(_, name)| name.as_ptr()).collect()
+}
+
+fn empty_cache(raw: &Arc<RawDevice>) -> Result<Owned<vk::PipelineCache>, DeviceError> {
+    // SAFETY: no initial data.
+    let cache = unsafe { raw.raw.create_pipeline_cache(&vk::PipelineCacheCreateInfo::default(), None) }
+        .map_err(|result| DeviceError::Vulkan { operation: "creating the pipeline cache", result })?;
+    Ok(Owned::new(raw, cache, "pipeline cache"))
+}
+
+fn create_timeline(raw: &Arc<RawDevice>) -> Result<Owned<vk::Semaphore>, DeviceError> {
+    let mut kind = vk::SemaphoreTypeCreateInfo::default().semaphore_type(vk::SemaphoreType::TIMELINE);
+    let info = vk::SemaphoreCreateInfo::default().push_next(&mut kind);
+    // SAFETY: timeline semaphores were switched on.
+    let semaphore = unsafe { raw.raw.create_semaphore(&info, None) }
+        .map_err(|result| DeviceError::Vulkan { operation: "creating the timeline", result })?;
+    Ok(Owned::new(raw, semaphore, "timeline"))
+}

@@ -1,0 +1,356 @@
+//! From steps to commands. Dull on purpose: all decisions were made in `plan` and `barrier`.
+
+use std::ffi::CString;
+
+use ash::vk;
+
+use crate::{
+    ColorTarget, DepthTarget, Device, Format, Image, Vertices,
+    barrier::{Barriers, Scope},
+    image::whole,
+    layout::descriptor_type,
+    plan::{Call, DrawCall, Kept, Step, Work},
+    query::Queries,
+};
+
+/// Writes commands into one command buffer.
+///
+/// The safety of every block below rests on three facts that [`Encoder::new`]'s caller vouches for: the command buffer is in the
+/// recording state and no other thread uses it; every handle belongs to `device` and is kept alive by the submission; and
+/// `plan` has checked ranges, usages, formats and limits.
+pub(crate) struct Encoder<'a> {
+    device: &'a Device,
+    commands: vk::CommandBuffer,
+    kept: &'a Kept,
+    queries: &'a Queries,
+}
+
+impl<'a> Encoder<'a> {
+    /// # Safety
+    /// `commands` is in the recording state, of `device`, and used by nobody else while the encoder lives. What `kept` and
+    /// `queries` hold lives until the commands have run.
+    pub(crate) unsafe fn new(
+        device: &'a Device,
+        commands: vk::CommandBuffer,
+        kept: &'a Kept,
+        queries: &'a Queries,
+    ) -> Self {
+        Self { device, commands, kept, queries }
+    }
+
+    /// Writes all steps, each behind its barriers, and the full barrier at the end.
+    pub(crate) fn encode(&self, steps: &[Step<'_>], barriers: &[Barriers]) {
+        self.reset_queries();
+        self.timestamp(0);
+        for ((index, step), barriers) in (0..).zip(steps).zip(barriers) {
+            self.begin_label(&step.name);
+            self.barriers(barriers);
+            self.begin_statistics(index);
+            self.work(index, &step.work);
+            self.end_statistics(index);
+            self.end_label();
+            self.timestamp(index + 1);
+        }
+        self.finish();
+    }
+
+    fn work(&self, index: u32, work: &Work<'_>) {
+        match work {
+            Work::Dispatch { call, groups } => self.dispatch(call, *groups),
+            Work::Render { pass, draws } => {
+                self.begin_rendering(pass.size, pass.color.as_ref(), pass.depth.as_ref());
+                self.draws(draws);
+                self.end_rendering();
+            }
+            Work::Capture { pass, size, draws } => self.capture(index, pass.buffer.raw(), pass.offset, *size, draws),
+            Work::CopyBuffer { source, target, region } => self.copy_buffer(*source, *target, *region),
+            Work::CopyImage { image, buffer } => self.copy_image(image, *buffer),
+        }
+    }
+
+    fn dispatch(&self, call: &Call<'_>, [x, y, z]: [u32; 3]) {
+        self.bind(call);
+        // SAFETY: see `Encoder`; pipeline, descriptors and push constants were just set, and the counts are within limits.
+        unsafe { self.device.raw().cmd_dispatch(self.commands, x, y, z) }
+    }
+
+    fn draws(&self, draws: &[DrawCall<'_>]) {
+        for draw in draws {
+            self.bind(&draw.call);
+            let (first_instance, instances) = (draw.instances.start, draw.instances.len() as u32);
+            match draw.vertices {
+                // SAFETY: see `Encoder`; pipeline, descriptors and push constants were just set.
+                Vertices::Range(range) => unsafe {
+                    self.device.raw().cmd_draw(
+                        self.commands,
+                        range.len() as u32,
+                        instances,
+                        range.start,
+                        first_instance,
+                    );
+                },
+                // SAFETY: as above; the range lies within the index buffer, and vertices come from storage buffers with
+                // robust access, so that any index is harmless.
+                Vertices::Indexed { indices, range } => unsafe {
+                    let raw = self.device.raw();
+                    raw.cmd_bind_index_buffer(self.commands, indices.raw(), 0, vk::IndexType::UINT32);
+                    raw.cmd_draw_indexed(self.commands, range.len() as u32, instances, range.start, 0, first_instance);
+                },
+            }
+        }
+    }
+
+    /// Sets pipeline, buffers and push constants, where they differ from those of the draw before.
+    fn bind(&self, call: &Call<'_>) {
+        let (raw, layout) = (self.device.raw(), call.pipeline.layout.raw.raw);
+        if let Some(descriptors) = &call.descriptors {
+            let infos: Vec<[vk::DescriptorBufferInfo; 1]> = descriptors
+                .iter()
+                .map(|one| [vk::DescriptorBufferInfo { buffer: one.buffer, offset: one.offset, range: one.range }])
+                .collect();
+            let write = |(one, info): (&crate::plan::Descriptor, &'_ [vk::DescriptorBufferInfo; 1])| {
+                let write = vk::WriteDescriptorSet::default().dst_binding(one.binding).descriptor_count(1);
+                vk::WriteDescriptorSet {
+                    p_buffer_info: info.as_ptr(),
+                    ..write.descriptor_type(descriptor_type(one.kind))
+                }
+            };
+            let writes: Vec<_> = descriptors.iter().zip(&infos).map(write).collect();
+            // SAFETY: see `Encoder`; `infos`, which the writes point to, lives across the call, and the descriptors are those
+            // of the pipeline's own layout.
+            unsafe {
+                raw.cmd_bind_pipeline(self.commands, call.pipeline.bind_point, call.pipeline.raw.raw);
+                if !writes.is_empty() {
+                    let functions = &self.device.shared.push_descriptor;
+                    functions.cmd_push_descriptor_set(self.commands, call.pipeline.bind_point, layout, 0, &writes);
+                }
+            }
+        }
+        if !call.push.is_empty() {
+            let stages = call.pipeline.interface().push_stages;
+            // SAFETY: see `Encoder`; the bytes are exactly those of the layout's range.
+            unsafe { raw.cmd_push_constants(self.commands, layout, stages, 0, call.push) }
+        }
+    }
+
+    fn begin_rendering(&self, size: [u32; 2], color: Option<&ColorTarget>, depth: Option<&DepthTarget>) {
+        let [width, height] = size;
+        let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
+        let colors: Vec<_> = color.map(color_attachment).into_iter().collect();
+        let depth = depth.map(depth_attachment);
+        let mut info = vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(&colors);
+        if let Some(depth) = &depth {
+            info = info.depth_attachment(depth);
+        }
+        let viewport =
+            vk::Viewport { x: 0.0, y: 0.0, width: width as f32, height: height as f32, min_depth: 0.0, max_depth: 1.0 };
+        let raw = self.device.raw();
+        // SAFETY: see `Encoder`; the attachments live across the call and their images are in the named layouts.
+        unsafe {
+            raw.cmd_begin_rendering(self.commands, &info);
+            raw.cmd_set_viewport(self.commands, 0, &[viewport]);
+            raw.cmd_set_scissor(self.commands, 0, &[area]);
+        }
+    }
+
+    fn end_rendering(&self) {
+        // SAFETY: see `Encoder`; rendering has begun.
+        unsafe { self.device.raw().cmd_end_rendering(self.commands) }
+    }
+
+    fn capture(&self, index: u32, buffer: vk::Buffer, offset: u64, size: u64, draws: &[DrawCall<'_>]) {
+        // `plan` refuses capture passes without the extension, since no buffer can then be made for them.
+        let Some(feedback) = &self.device.shared.transform_feedback else { return };
+        let functions = feedback.fp();
+        let query = self.queries.capture(index);
+        let raw = self.device.raw();
+        self.begin_rendering([1, 1], None, None);
+        if let Some((pool, query)) = query {
+            // SAFETY: see `Encoder`; the query was reset and belongs to this pass alone.
+            unsafe { raw.cmd_begin_query(self.commands, pool, query, vk::QueryControlFlags::empty()) }
+        }
+        // SAFETY: see `Encoder`; the buffer has the usage, offset and size lie within it; no counter buffers are passed.
+        unsafe {
+            (functions.cmd_bind_transform_feedback_buffers_ext)(self.commands, 0, 1, &buffer, &offset, &size);
+        }
+        if let Some(first) = draws.first() {
+            // A pipeline must be bound before capture begins.
+            self.bind(&first.call);
+            // SAFETY: as above; rendering has begun and the bound pipeline captures.
+            unsafe {
+                (functions.cmd_begin_transform_feedback_ext)(self.commands, 0, 0, std::ptr::null(), std::ptr::null());
+            }
+            self.draws(draws);
+            // SAFETY: as above; capture has begun.
+            unsafe {
+                (functions.cmd_end_transform_feedback_ext)(self.commands, 0, 0, std::ptr::null(), std::ptr::null());
+            }
+        }
+        if let Some((pool, query)) = query {
+            // SAFETY: see `Encoder`; the query has begun.
+            unsafe { raw.cmd_end_query(self.commands, pool, query) }
+        }
+        self.end_rendering();
+    }
+
+    fn copy_buffer(&self, source: vk::Buffer, target: vk::Buffer, region: vk::BufferCopy2<'_>) {
+        if region.size == 0 {
+            return;
+        }
+        let regions = [region];
+        let info = vk::CopyBufferInfo2::default().src_buffer(source).dst_buffer(target).regions(&regions);
+        // SAFETY: see `Encoder`; the ranges lie within the buffers and do not overlap.
+        unsafe { self.device.raw().cmd_copy_buffer2(self.commands, &info) }
+    }
+
+    fn copy_image(&self, image: &Image, buffer: vk::Buffer) {
+        let [width, height] = image.size();
+        let layers = vk::ImageSubresourceLayers::default().aspect_mask(image.format().aspect()).layer_count(1);
+        let regions = [vk::BufferImageCopy2::default().image_subresource(layers).image_extent(vk::Extent3D {
+            width,
+            height,
+            depth: 1,
+        })];
+        let info = vk::CopyImageToBufferInfo2::default()
+            .src_image(image.raw())
+            .src_image_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL)
+            .dst_buffer(buffer)
+            .regions(&regions);
+        // SAFETY: see `Encoder`; the buffer takes the whole image, which is in the named layout.
+        unsafe { self.device.raw().cmd_copy_image_to_buffer2(self.commands, &info) }
+    }
+
+    fn barriers(&self, barriers: &Barriers) {
+        let memory: Vec<_> =
+            barriers.memory.iter().map(|(source, destination)| memory_barrier(*source, *destination)).collect();
+        let images: Vec<_> = barriers
+            .images
+            .iter()
+            .filter_map(|one| {
+                let image = self.kept.images.get(&one.image)?;
+                let barrier = vk::ImageMemoryBarrier2::default()
+                    .src_stage_mask(one.source.stages)
+                    .src_access_mask(one.source.access)
+                    .dst_stage_mask(one.destination.stages)
+                    .dst_access_mask(one.destination.access)
+                    .old_layout(one.from)
+                    .new_layout(one.to)
+                    .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+                    .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED);
+                Some(barrier.image(image.raw()).subresource_range(whole(image.format())))
+            })
+            .collect();
+        if !memory.is_empty() || !images.is_empty() {
+            self.barrier(&vk::DependencyInfo::default().memory_barriers(&memory).image_memory_barriers(&images));
+        }
+    }
+
+    /// Orders everything before against everything after, reads by the host too.
+    fn finish(&self) {
+        let source = Scope { stages: vk::PipelineStageFlags2::ALL_COMMANDS, access: vk::AccessFlags2::MEMORY_WRITE };
+        let destination = Scope {
+            stages: vk::PipelineStageFlags2::ALL_COMMANDS | vk::PipelineStageFlags2::HOST,
+            access: vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE,
+        };
+        self.barrier(&vk::DependencyInfo::default().memory_barriers(&[memory_barrier(source, destination)]));
+    }
+
+    fn barrier(&self, info: &vk::DependencyInfo<'_>) {
+        // SAFETY: see `Encoder`; no rendering is in progress.
+        unsafe { self.device.raw().cmd_pipeline_barrier2(self.commands, info) }
+    }
+
+    fn reset_queries(&self) {
+        for (pool, count) in self.queries.pools() {
+            // SAFETY: see `Encoder`; the pool has so many queries.
+            unsafe { self.device.raw().cmd_reset_query_pool(self.commands, pool, 0, count) }
+        }
+    }
+
+    fn timestamp(&self, index: u32) {
+        if let Some(pool) = self.queries.timestamps() {
+            let stage = vk::PipelineStageFlags2::ALL_COMMANDS;
+            // SAFETY: see `Encoder`; the pool has a query for the start and for the end of each pass, all reset.
+            unsafe { self.device.raw().cmd_write_timestamp2(self.commands, stage, pool, index) }
+        }
+    }
+
+    fn begin_statistics(&self, index: u32) {
+        if let Some((pool, query)) = self.queries.statistics(index) {
+            // SAFETY: see `Encoder`; the query was reset and belongs to this pass alone.
+            unsafe { self.device.raw().cmd_begin_query(self.commands, pool, query, vk::QueryControlFlags::empty()) }
+        }
+    }
+
+    fn end_statistics(&self, index: u32) {
+        if let Some((pool, query)) = self.queries.statistics(index) {
+            // SAFETY: see `Encoder`; the query has begun.
+            unsafe { self.device.raw().cmd_end_query(self.commands, pool, query) }
+        }
+    }
+
+    fn begin_label(&self, name: &str) {
+        if let (Some(debug), Ok(name)) = (&self.device.shared.raw.debug, CString::new(name)) {
+            let info = vk::DebugUtilsLabelEXT::default().label_name(&name);
+            // SAFETY: see `Encoder`; the name lives across the call.
+            unsafe { debug.cmd_begin_debug_utils_label(self.commands, &info) }
+        }
+    }
+
+    fn end_label(&self) {
+        if let Some(debug) = &self.device.shared.raw.debug {
+            // SAFETY: see `Encoder`; a label has begun.
+            unsafe { debug.cmd_end_debug_utils_label(self.commands) }
+        }
+    }
+}
+
+fn memory_barrier(source: Scope, destination: Scope) -> vk::MemoryBarrier2<'static> {
+    vk::MemoryBarrier2::default()
+        .src_stage_mask(source.stages)
+        .src_access_mask(source.access)
+        .dst_stage_mask(destination.stages)
+        .dst_access_mask(destination.access)
+}
+
+fn load_op(cleared: bool) -> vk::AttachmentLoadOp {
+    if cleared { vk::AttachmentLoadOp::CLEAR } else { vk::AttachmentLoadOp::LOAD }
+}
+
+fn color_attachment(target: &ColorTarget) -> vk::RenderingAttachmentInfo<'static> {
+    let layout = vk::ImageLayout::COLOR_ATTACHMENT_OPTIMAL;
+    let info = vk::RenderingAttachmentInfo::default()
+        .image_view(target.image.view())
+        .image_layout(layout)
+        .load_op(load_op(target.clear.is_some()))
+        .store_op(vk::AttachmentStoreOp::STORE)
+        .clear_value(vk::ClearValue { color: clear_color(target) });
+    match &target.resolve {
+        None => info,
+        Some(resolve) => {
+            // Integers have no average.
+            let integer = resolve.format() == Format::R32Uint;
+            let mode = if integer { vk::ResolveModeFlags::SAMPLE_ZERO } else { vk::ResolveModeFlags::AVERAGE };
+            info.resolve_mode(mode).resolve_image_view(resolve.view()).resolve_image_layout(layout)
+        }
+    }
+}
+
+fn clear_color(target: &ColorTarget) -> vk::ClearColorValue {
+    let float32 = target.clear.unwrap_or_default();
+    if target.image.format() == Format::R32Uint {
+        vk::ClearColorValue { uint32: float32.map(|value| value as u32) }
+    } else {
+        vk::ClearColorValue { float32 }
+    }
+}
+
+fn depth_attachment(target: &DepthTarget) -> vk::RenderingAttachmentInfo<'static> {
+    let depth = target.clear.unwrap_or_default();
+    vk::RenderingAttachmentInfo::default()
+        .image_view(target.image.view())
+        .image_layout(vk::ImageLayout::DEPTH_ATTACHMENT_OPTIMAL)
+        .load_op(load_op(target.clear.is_some()))
+        .store_op(vk::AttachmentStoreOp::STORE)
+        .clear_value(vk::ClearValue { depth_stencil: vk::ClearDepthStencilValue { depth, stencil: 0 } })
+}

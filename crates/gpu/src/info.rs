@@ -1,0 +1,337 @@
+//! What a device is and can do.
+
+use std::ffi::CStr;
+
+use ash::{ext, khr, vk};
+
+use crate::DeviceError;
+use crate::format::sample_flag;
+
+/// The kind of a device, best first.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum DeviceKind {
+    /// A graphics card with memory of its own.
+    Discrete,
+    /// A graphics unit that shares the memory of the CPU.
+    Integrated,
+    /// A device of a virtual machine.
+    Virtual,
+    /// The CPU itself, such as llvmpipe.
+    Cpu,
+    /// Anything else.
+    Other,
+}
+
+impl DeviceKind {
+    fn new(kind: vk::PhysicalDeviceType) -> Self {
+        match kind {
+            vk::PhysicalDeviceType::DISCRETE_GPU => Self::Discrete,
+            vk::PhysicalDeviceType::INTEGRATED_GPU => Self::Integrated,
+            vk::PhysicalDeviceType::VIRTUAL_GPU => Self::Virtual,
+            vk::PhysicalDeviceType::CPU => Self::Cpu,
+            _ => Self::Other,
+        }
+    }
+}
+
+impl std::fmt::Display for DeviceKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(match self {
+            Self::Discrete => "discrete",
+            Self::Integrated => "integrated",
+            Self::Virtual => "virtual",
+            Self::Cpu => "cpu",
+            Self::Other => "other",
+        })
+    }
+}
+
+/// A device, as found on this machine.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct DeviceInfo {
+    /// Position in the order in which Vulkan lists the devices; what a selection by number means.
+    pub index: usize,
+    /// The device's name for people.
+    pub name: String,
+    /// Its kind.
+    pub kind: DeviceKind,
+    /// Name of the driver.
+    pub driver_name: String,
+    /// Version of the driver, as the driver likes to write it.
+    pub driver_info: String,
+    /// Vulkan version, such as "1.3.230".
+    pub api_version: String,
+    /// Whether this is Mesa's llvmpipe, some of whose defects callers must design around.
+    pub is_llvmpipe: bool,
+    /// Its limits.
+    pub limits: Limits,
+    /// The optional features it has; all of them are switched on.
+    pub features: Features,
+    /// Required features that it lacks; a device can be opened only if this is empty.
+    pub missing: Vec<String>,
+}
+
+/// Limits of a device.
+#[derive(Clone, Debug, Default)]
+#[non_exhaustive]
+pub struct Limits {
+    /// Most bytes of a storage buffer that a shader sees.
+    pub max_storage_buffer_range: u64,
+    /// Most bytes of a uniform buffer that a shader sees.
+    pub max_uniform_buffer_range: u64,
+    /// Offsets of storage buffers in bindings are multiples of this, in bytes.
+    pub storage_buffer_alignment: u64,
+    /// Offsets of uniform buffers in bindings are multiples of this, in bytes.
+    pub uniform_buffer_alignment: u64,
+    /// Most bytes in one memory allocation.
+    pub max_memory_allocation: u64,
+    /// Most bytes of push constants.
+    pub max_push_constants: u32,
+    /// Most buffers that one pipeline binds.
+    pub max_push_descriptors: u32,
+    /// Highest tessellation level.
+    pub max_tessellation_level: u32,
+    /// Most points in a patch, in and out.
+    pub max_patch_vertices: u32,
+    /// Most work groups of a dispatch, per dimension.
+    pub max_work_groups: [u32; 3],
+    /// Most invocations in a work group.
+    pub max_work_group_invocations: u32,
+    /// Widest and highest colour or depth target.
+    pub max_target_size: u32,
+    /// Sample counts that colour and depth targets take, ascending.
+    pub sample_counts: Vec<u32>,
+    /// Most bytes that one capture pass writes into one buffer; 0 without transform feedback.
+    pub max_capture_buffer: u64,
+    /// Nanoseconds per tick of GPU time; 0 if GPU time cannot be measured.
+    pub timestamp_period: f32,
+}
+
+/// Optional features of a device.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
+pub struct Features {
+    /// `VK_EXT_transform_feedback`: capture passes.
+    pub transform_feedback: bool,
+    /// `fillModeNonSolid`: [`PolygonMode::Line`](crate::PolygonMode::Line).
+    pub wireframe: bool,
+    /// `pipelineStatisticsQuery`: counts of shader invocations.
+    pub pipeline_statistics: bool,
+    /// `vertexPipelineStoresAndAtomics`: vertex and tessellation stages may write buffers.
+    pub vertex_stores: bool,
+    /// `fragmentStoresAndAtomics`: fragment stages may write buffers.
+    pub fragment_stores: bool,
+    /// `geometryShader`: `gl_PrimitiveID` in fragment stages.
+    pub geometry: bool,
+    /// `sampleRateShading`.
+    pub sample_shading: bool,
+    /// `shaderFloat64`.
+    pub float64: bool,
+    /// `shaderInt64`.
+    pub int64: bool,
+    /// `scalarBlockLayout`: buffers of three-component vectors without padding.
+    pub scalar_layout: bool,
+    /// `shaderClipDistance`.
+    pub clip_distance: bool,
+}
+
+/// A physical device and what was found out about it.
+pub(crate) struct Physical {
+    pub(crate) raw: vk::PhysicalDevice,
+    pub(crate) info: DeviceInfo,
+    /// A queue family with graphics and compute.
+    pub(crate) queue_family: u32,
+    /// The bits of a timestamp that count; none if the queue measures no time.
+    pub(crate) timestamp_mask: u64,
+    pub(crate) extensions: Extensions,
+    /// What a pipeline cache made on this device starts with.
+    pub(crate) cache_identity: CacheIdentity,
+}
+
+/// Device extensions that matter here.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Extensions {
+    pub(crate) push_descriptor: bool,
+    pub(crate) transform_feedback: bool,
+    pub(crate) portability_subset: bool,
+}
+
+/// Vendor, device and driver version, as in the header of Vulkan's pipeline caches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct CacheIdentity {
+    pub(crate) vendor: u32,
+    pub(crate) device: u32,
+    pub(crate) uuid: [u8; vk::UUID_SIZE],
+}
+
+/// Lists the devices of an instance.
+pub(crate) fn enumerate(instance: &ash::Instance) -> Result<Vec<Physical>, DeviceError> {
+    // SAFETY: the instance is alive.
+    let devices = unsafe { instance.enumerate_physical_devices() }
+        .map_err(|result| DeviceError::Vulkan { operation: "listing the Vulkan devices", result })?;
+    devices.into_iter().enumerate().map(|(index, raw)| examine(instance, index, raw)).collect()
+}
+
+/// Finds out what one device is and can do.
+fn examine(instance: &ash::Instance, index: usize, raw: vk::PhysicalDevice) -> Result<Physical, DeviceError> {
+    let extensions = find_extensions(instance, raw)?;
+    // SAFETY: `raw` comes from this instance.
+    let version = unsafe { instance.get_physical_device_properties(raw) }.api_version;
+    // A device older than 1.3 may be listed, but must not be asked with 1.3's structures.
+    let modern = version >= vk::API_VERSION_1_3;
+    let (features, mut missing) = if modern { find_features(instance, raw, extensions) } else { Default::default() };
+    if !modern {
+        missing.push("Vulkan 1.3".to_owned());
+    }
+    if !extensions.push_descriptor {
+        missing.push("VK_KHR_push_descriptor".to_owned());
+    }
+    let queue_family = find_queue_family(instance, raw);
+    if queue_family.is_none() {
+        missing.push("a queue with graphics and compute".to_owned());
+    }
+    let (queue_family, timestamp_mask) = queue_family.unwrap_or_default();
+    let (info, cache_identity) = find_properties(instance, raw, modern, extensions);
+    let mut info = DeviceInfo { index, api_version: version_text(version), features, missing, ..info };
+    if timestamp_mask == 0 {
+        info.limits.timestamp_period = 0.0;
+    }
+    Ok(Physical { raw, info, queue_family, timestamp_mask, extensions, cache_identity })
+}
+
+fn version_text(version: u32) -> String {
+    let [major, minor, patch] =
+        [vk::api_version_major(version), vk::api_version_minor(version), vk::api_version_patch(version)];
+    format!("{major}.{minor}.{patch}")
+}
+
+fn find_extensions(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Result<Extensions, DeviceError> {
+    // SAFETY: `raw` comes from this instance.
+    let found = unsafe { instance.enumerate_device_extension_properties(raw) }
+        .map_err(|result| DeviceError::Vulkan { operation: "listing the device extensions", result })?;
+    let has = |name: &CStr| found.iter().any(|one| one.extension_name_as_c_str() == Ok(name));
+    Ok(Extensions {
+        push_descriptor: has(khr::push_descriptor::NAME),
+        transform_feedback: has(ext::transform_feedback::NAME),
+        portability_subset: has(khr::portability_subset::NAME),
+    })
+}
+
+/// The first queue family with graphics and compute, and the bits of its timestamps that count.
+fn find_queue_family(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Option<(u32, u64)> {
+    let wanted = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
+    // SAFETY: `raw` comes from this instance.
+    let families = unsafe { instance.get_physical_device_queue_family_properties(raw) };
+    let index = families.iter().position(|family| family.queue_flags.contains(wanted))?;
+    let bits = families[index].timestamp_valid_bits;
+    let mask = u64::MAX.checked_shr(64u32.saturating_sub(bits)).unwrap_or(0);
+    Some((u32::try_from(index).ok()?, mask))
+}
+
+/// The optional features of a device of version 1.3, and the names of the required ones that it lacks.
+fn find_features(instance: &ash::Instance, raw: vk::PhysicalDevice, extensions: Extensions) -> (Features, Vec<String>) {
+    let mut v12 = vk::PhysicalDeviceVulkan12Features::default();
+    let mut v13 = vk::PhysicalDeviceVulkan13Features::default();
+    let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default();
+    let mut all = vk::PhysicalDeviceFeatures2::default().push_next(&mut v12).push_next(&mut v13);
+    if extensions.transform_feedback {
+        all = all.push_next(&mut feedback);
+    }
+    // SAFETY: `raw` comes from this instance, and the chain holds structures of its version and extensions.
+    unsafe { instance.get_physical_device_features2(raw, &mut all) };
+    let core = all.features;
+    let yes = |flag: vk::Bool32| flag == vk::TRUE;
+    let required = [
+        ("tessellationShader", core.tessellation_shader),
+        ("robustBufferAccess", core.robust_buffer_access),
+        ("timelineSemaphore", v12.timeline_semaphore),
+        ("dynamicRendering", v13.dynamic_rendering),
+        ("synchronization2", v13.synchronization2),
+        ("maintenance4", v13.maintenance4),
+    ];
+    let missing = required.iter().filter(|(_, flag)| !yes(*flag)).map(|(name, _)| (*name).to_owned()).collect();
+    let features = Features {
+        transform_feedback: yes(feedback.transform_feedback),
+        wireframe: yes(core.fill_mode_non_solid),
+        pipeline_statistics: yes(core.pipeline_statistics_query),
+        vertex_stores: yes(core.vertex_pipeline_stores_and_atomics),
+        fragment_stores: yes(core.fragment_stores_and_atomics),
+        geometry: yes(core.geometry_shader),
+        sample_shading: yes(core.sample_rate_shading),
+        float64: yes(core.shader_float64),
+        int64: yes(core.shader_int64),
+        scalar_layout: yes(v12.scalar_block_layout),
+        clip_distance: yes(core.shader_clip_distance),
+    };
+    (features, missing)
+}
+
+/// Names, kind and limits; index, version, features and what is missing are left at their defaults.
+fn find_properties(
+    instance: &ash::Instance,
+    raw: vk::PhysicalDevice,
+    modern: bool,
+    extensions: Extensions,
+) -> (DeviceInfo, CacheIdentity) {
+    let mut driver = vk::PhysicalDeviceDriverProperties::default();
+    let mut v11 = vk::PhysicalDeviceVulkan11Properties::default();
+    let mut push = vk::PhysicalDevicePushDescriptorPropertiesKHR::default();
+    let mut feedback = vk::PhysicalDeviceTransformFeedbackPropertiesEXT::default();
+    let mut all = vk::PhysicalDeviceProperties2::default();
+    if modern {
+        all = all.push_next(&mut driver).push_next(&mut v11);
+    }
+    if extensions.push_descriptor {
+        all = all.push_next(&mut push);
+    }
+    if extensions.transform_feedback {
+        all = all.push_next(&mut feedback);
+    }
+    // SAFETY: `raw` comes from this instance, and the chain holds structures of its version and extensions.
+    unsafe { instance.get_physical_device_properties2(raw, &mut all) };
+    let core = all.properties;
+    let limits = Limits {
+        max_memory_allocation: v11.max_memory_allocation_size,
+        max_push_descriptors: push.max_push_descriptors,
+        max_capture_buffer: feedback.max_transform_feedback_buffer_size,
+        ..core_limits(&core.limits)
+    };
+    let text = |name: Result<&CStr, _>| name.map_or_else(|_| String::new(), |name| name.to_string_lossy().into_owned());
+    let info = DeviceInfo {
+        index: 0,
+        name: text(core.device_name_as_c_str()),
+        kind: DeviceKind::new(core.device_type),
+        driver_name: text(driver.driver_name_as_c_str()),
+        driver_info: text(driver.driver_info_as_c_str()),
+        api_version: String::new(),
+        is_llvmpipe: driver.driver_id == vk::DriverId::MESA_LLVMPIPE,
+        limits,
+        features: Features::default(),
+        missing: Vec::new(),
+    };
+    let identity = CacheIdentity { vendor: core.vendor_id, device: core.device_id, uuid: core.pipeline_cache_uuid };
+    (info, identity)
+}
+
+/// The limits of Vulkan 1.0.
+fn core_limits(core: &vk::PhysicalDeviceLimits) -> Limits {
+    let counts = core.framebuffer_color_sample_counts & core.framebuffer_depth_sample_counts;
+    let samples =
+        [1, 2, 4, 8, 16, 32].into_iter().filter(|&n| sample_flag(n).is_some_and(|flag| counts.contains(flag)));
+    Limits {
+        max_storage_buffer_range: core.max_storage_buffer_range.into(),
+        max_uniform_buffer_range: core.max_uniform_buffer_range.into(),
+        storage_buffer_alignment: core.min_storage_buffer_offset_alignment,
+        uniform_buffer_alignment: core.min_uniform_buffer_offset_alignment,
+        max_push_constants: core.max_push_constants_size,
+        max_tessellation_level: core.max_tessellation_generation_level,
+        max_patch_vertices: core.max_tessellation_patch_size,
+        max_work_groups: core.max_compute_work_group_count,
+        max_work_group_invocations: core.max_compute_work_group_invocations,
+        max_target_size: core.max_framebuffer_width.min(core.max_framebuffer_height).min(core.max_image_dimension2_d),
+        sample_counts: samples.collect(),
+        timestamp_period: core.timestamp_period,
+        ..Limits::default()
+    }
+}

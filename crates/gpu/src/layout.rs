@@ -1,0 +1,209 @@
+//! Pipeline layouts: the union of what the stages of a pipeline declare.
+
+use std::sync::Arc;
+
+use ash::vk;
+
+use crate::{BufferKind, Device, GpuError, Reflection, Stage, owned::Owned};
+
+/// A buffer that some stages of a pipeline use.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct LayoutBinding {
+    pub(crate) binding: u32,
+    pub(crate) kind: BufferKind,
+    pub(crate) stages: vk::ShaderStageFlags,
+    /// Pipeline stages that may read the buffer.
+    pub(crate) reads: vk::PipelineStageFlags2,
+    /// Pipeline stages that may write it.
+    pub(crate) writes: vk::PipelineStageFlags2,
+    /// The first shader that declares it, and its name there; for messages.
+    pub(crate) shader: String,
+    pub(crate) name: String,
+}
+
+/// What a pipeline binds, ascending by binding, and the bytes of its push constants.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Interface {
+    pub(crate) bindings: Vec<LayoutBinding>,
+    pub(crate) push_size: u32,
+    pub(crate) push_stages: vk::ShaderStageFlags,
+}
+
+/// Merges what the stages of a pipeline declare.
+pub(crate) fn merge(pipeline: &str, shaders: &[(&str, &Reflection)]) -> Result<Interface, GpuError> {
+    let mut interface = Interface::default();
+    for (shader, reflection) in shaders {
+        let (flag, stage) = stage_flags(reflection.stage);
+        if reflection.push_constant_size > 0 {
+            interface.push_size = interface.push_size.max(reflection.push_constant_size);
+            interface.push_stages |= flag;
+        }
+        for buffer in &reflection.buffers {
+            let reads = if buffer.reads { stage } else { vk::PipelineStageFlags2::NONE };
+            let writes = if buffer.writes { stage } else { vk::PipelineStageFlags2::NONE };
+            match interface.bindings.iter_mut().find(|known| known.binding == buffer.binding) {
+                Some(known) if known.kind == buffer.kind => {
+                    known.stages |= flag;
+                    known.reads |= reads;
+                    known.writes |= writes;
+                }
+                Some(known) => {
+                    return Err(GpuError::BindingConflict {
+                        pipeline: pipeline.to_owned(),
+                        binding: buffer.binding,
+                        first: known.shader.clone(),
+                        first_kind: known.kind.name(),
+                        second: (*shader).to_owned(),
+                        second_kind: buffer.kind.name(),
+                    });
+                }
+                None => interface.bindings.push(LayoutBinding {
+                    binding: buffer.binding,
+                    kind: buffer.kind,
+                    stages: flag,
+                    reads,
+                    writes,
+                    shader: (*shader).to_owned(),
+                    name: buffer.name.clone(),
+                }),
+            }
+        }
+    }
+    interface.bindings.sort_by_key(|binding| binding.binding);
+    Ok(interface)
+}
+
+/// Vulkan's two flags for a stage: as part of a pipeline, and as a point in the GPU's work.
+pub(crate) fn stage_flags(stage: Stage) -> (vk::ShaderStageFlags, vk::PipelineStageFlags2) {
+    match stage {
+        Stage::Vertex => (vk::ShaderStageFlags::VERTEX, vk::PipelineStageFlags2::VERTEX_SHADER),
+        Stage::TessellationControl => {
+            (vk::ShaderStageFlags::TESSELLATION_CONTROL, vk::PipelineStageFlags2::TESSELLATION_CONTROL_SHADER)
+        }
+        Stage::TessellationEvaluation => {
+            (vk::ShaderStageFlags::TESSELLATION_EVALUATION, vk::PipelineStageFlags2::TESSELLATION_EVALUATION_SHADER)
+        }
+        Stage::Fragment => (vk::ShaderStageFlags::FRAGMENT, vk::PipelineStageFlags2::FRAGMENT_SHADER),
+        Stage::Compute => (vk::ShaderStageFlags::COMPUTE, vk::PipelineStageFlags2::COMPUTE_SHADER),
+    }
+}
+
+/// A pipeline layout with the layout of its one set of pushed descriptors. Field order is destruction order.
+pub(crate) struct Layout {
+    pub(crate) raw: Owned<vk::PipelineLayout>,
+    _set: Owned<vk::DescriptorSetLayout>,
+    pub(crate) interface: Interface,
+}
+
+impl Device {
+    pub(crate) fn layout(&self, name: &str, interface: Interface) -> Result<Arc<Layout>, GpuError> {
+        self.check_interface(name, &interface)?;
+        let set = self.set_layout(name, &interface)?;
+        let sets = [set.raw];
+        let push = [vk::PushConstantRange::default().stage_flags(interface.push_stages).size(interface.push_size)];
+        let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
+        if interface.push_size > 0 {
+            info = info.push_constant_ranges(&push);
+        }
+        // SAFETY: the set layout is alive and the push constants are within the limit.
+        let raw = unsafe { self.raw().create_pipeline_layout(&info, None) }
+            .map_err(|result| GpuError::from_vulkan(format!("creating the layout of {name:?}"), result))?;
+        Ok(Arc::new(Layout { raw: Owned::new(&self.shared.raw, raw, name), _set: set, interface }))
+    }
+
+    fn check_interface(&self, name: &str, interface: &Interface) -> Result<(), GpuError> {
+        let limits = &self.info().limits;
+        let counts = [
+            ("bytes of push constants", u64::from(interface.push_size), limits.max_push_constants),
+            ("buffers", interface.bindings.len() as u64, limits.max_push_descriptors),
+        ];
+        match counts.into_iter().find(|(_, value, limit)| *value > u64::from(*limit)) {
+            None => Ok(()),
+            Some((what, value, limit)) => {
+                Err(GpuError::Limit { what: format!("{what} of pipeline {name:?}"), value, limit: limit.into() })
+            }
+        }
+    }
+
+    fn set_layout(&self, name: &str, interface: &Interface) -> Result<Owned<vk::DescriptorSetLayout>, GpuError> {
+        let bindings: Vec<_> = interface.bindings.iter().map(set_binding).collect();
+        let info = vk::DescriptorSetLayoutCreateInfo::default()
+            .flags(vk::DescriptorSetLayoutCreateFlags::PUSH_DESCRIPTOR_KHR)
+            .bindings(&bindings);
+        // SAFETY: binding numbers are distinct and their count is within the limit of push descriptors.
+        let raw = unsafe { self.raw().create_descriptor_set_layout(&info, None) }
+            .map_err(|result| GpuError::from_vulkan(format!("creating the bindings of {name:?}"), result))?;
+        Ok(Owned::new(&self.shared.raw, raw, name))
+    }
+}
+
+fn set_binding(binding: &LayoutBinding) -> vk::DescriptorSetLayoutBinding<'static> {
+    vk::DescriptorSetLayoutBinding::default()
+        .binding(binding.binding)
+        .descriptor_type(descriptor_type(binding.kind))
+        .descriptor_count(1)
+        .stage_flags(binding.stages)
+}
+
+pub(crate) fn descriptor_type(kind: BufferKind) -> vk::DescriptorType {
+    match kind {
+        BufferKind::Storage => vk::DescriptorType::STORAGE_BUFFER,
+        BufferKind::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::BufferBinding;
+
+    fn shader(stage: Stage, push_constant_size: u32, buffers: &[(u32, BufferKind, bool, bool)]) -> Reflection {
+        let buffer = |&(binding, kind, reads, writes)| BufferBinding {
+            binding,
+            kind,
+            reads,
+            writes,
+            name: format!("b{binding}"),
+        };
+        Reflection {
+            stage,
+            entry_point: "main".to_owned(),
+            buffers: buffers.iter().map(buffer).collect(),
+            push_constant_size,
+            specialization: Vec::new(),
+            local_size: None,
+            output_vertices: None,
+            capture_stride: None,
+        }
+    }
+
+    #[test]
+    fn bindings_of_all_stages_are_united() {
+        let vertex = shader(Stage::Vertex, 16, &[(3, BufferKind::Storage, true, false)]);
+        let fragment =
+            shader(Stage::Fragment, 32, &[(0, BufferKind::Uniform, true, false), (3, BufferKind::Storage, true, true)]);
+        let interface = merge("p", &[("v", &vertex), ("f", &fragment)]).unwrap();
+        assert_eq!(interface.bindings.iter().map(|one| one.binding).collect::<Vec<_>>(), [0, 3]);
+        let shared = &interface.bindings[1];
+        assert_eq!(shared.stages, vk::ShaderStageFlags::VERTEX | vk::ShaderStageFlags::FRAGMENT);
+        assert_eq!(shared.reads, vk::PipelineStageFlags2::VERTEX_SHADER | vk::PipelineStageFlags2::FRAGMENT_SHADER);
+        assert_eq!(shared.writes, vk::PipelineStageFlags2::FRAGMENT_SHADER);
+        assert_eq!((interface.push_size, interface.push_stages), (32, shared.stages));
+    }
+
+    #[test]
+    fn stages_without_push_constants_are_left_out_of_the_range() {
+        let vertex = shader(Stage::Vertex, 0, &[]);
+        let fragment = shader(Stage::Fragment, 4, &[]);
+        let interface = merge("p", &[("v", &vertex), ("f", &fragment)]).unwrap();
+        assert_eq!(interface.push_stages, vk::ShaderStageFlags::FRAGMENT);
+    }
+
+    #[test]
+    fn a_binding_of_two_kinds_is_refused_with_both_shaders() {
+        let vertex = shader(Stage::Vertex, 0, &[(1, BufferKind::Storage, true, false)]);
+        let fragment = shader(Stage::Fragment, 0, &[(1, BufferKind::Uniform, true, false)]);
+        let error = merge("p", &[("v", &vertex), ("f", &fragment)]).unwrap_err().to_string();
+        assert!(error.contains("\"v\"") && error.contains("\"f\"") && error.contains("binding 1"), "{error}");
+    }
+}

@@ -1,0 +1,152 @@
+//! Handing recordings to the GPU, and waiting for them.
+
+use std::collections::HashMap;
+
+use ash::vk;
+
+use crate::{
+    Device, GpuError, Recording, Report,
+    barrier::derive,
+    device::Queue,
+    execute::Encoder,
+    owned::Owned,
+    plan::{Kept, Plan},
+    query::Queries,
+    resource::ResourceId,
+};
+
+/// A command pool with its one command buffer, used by one submission at a time.
+pub(crate) struct Commands {
+    pool: Owned<vk::CommandPool>,
+    buffer: vk::CommandBuffer,
+}
+
+/// Work that the GPU does. Keeps alive all it uses, and dropping it waits for its end: to have several in flight, keep them.
+#[must_use = "dropping a submission waits for its end"]
+pub struct Submission {
+    device: Device,
+    timeline_value: u64,
+    queries: Queries,
+    /// Empty once given back.
+    commands: Option<Commands>,
+    _kept: Kept,
+}
+
+impl Device {
+    /// Checks a recording and hands it to the GPU. Nothing is done if the recording is wrong.
+    pub fn submit(&self, recording: &Recording) -> Result<Submission, GpuError> {
+        let plan = Plan::new(self, recording)?;
+        let queries = Queries::new(self, recording)?;
+        // From here to the end the queue is locked: layouts are read, used and updated in the order of submissions.
+        let mut queue = self.queue();
+        let layouts: HashMap<ResourceId, _> =
+            plan.kept.images.iter().map(|(id, image)| (*id, image.layout())).collect();
+        let (barriers, layouts) = derive(plan.steps.iter().map(|step| step.uses.as_slice()), &layouts);
+        let commands = self.begin(&mut queue)?;
+        // SAFETY: `begin` put the command buffer of this device into the recording state, nobody else has it, and the
+        // submission keeps `kept` and `queries` until the commands have run.
+        unsafe { Encoder::new(self, commands.buffer, &plan.kept, &queries) }.encode(&plan.steps, &barriers);
+        let timeline_value = self.end_and_submit(&mut queue, &commands)?;
+        plan.kept.buffers.values().for_each(|buffer| buffer.used_by(timeline_value));
+        plan.kept.images.iter().for_each(|(id, image)| image.set_layout(layouts[id]));
+        let (device, commands) = (self.clone(), Some(commands));
+        Ok(Submission { device, timeline_value, queries, commands, _kept: plan.kept })
+    }
+
+    /// Submits and waits: for tests and one-off work.
+    pub fn run(&self, recording: &Recording) -> Result<Report, GpuError> {
+        self.submit(recording)?.wait()
+    }
+
+    /// A command buffer in the recording state.
+    fn begin(&self, queue: &mut Queue) -> Result<Commands, GpuError> {
+        let failed = |result| GpuError::from_vulkan("beginning a command buffer", result);
+        let commands = match queue.idle.pop() {
+            Some(commands) => commands,
+            None => self.create_commands(queue.family)?,
+        };
+        let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        // SAFETY: the pool is not in use: it is new, or its submission is complete.
+        unsafe {
+            self.raw().reset_command_pool(commands.pool.raw, vk::CommandPoolResetFlags::empty()).map_err(failed)?;
+            self.raw().begin_command_buffer(commands.buffer, &info).map_err(failed)?;
+        }
+        Ok(commands)
+    }
+
+    fn create_commands(&self, family: u32) -> Result<Commands, GpuError> {
+        let failed = |result| GpuError::from_vulkan("creating a command buffer", result);
+        let info = vk::CommandPoolCreateInfo::default()
+            .flags(vk::CommandPoolCreateFlags::TRANSIENT)
+            .queue_family_index(family);
+        // SAFETY: the family is that of the device's queue.
+        let pool = unsafe { self.raw().create_command_pool(&info, None) }.map_err(failed)?;
+        let pool = Owned::new(&self.shared.raw, pool, "commands");
+        let info = vk::CommandBufferAllocateInfo::default().command_pool(pool.raw).command_buffer_count(1);
+        // SAFETY: the pool is new and ours.
+        let buffers = unsafe { self.raw().allocate_command_buffers(&info) }.map_err(failed)?;
+        let buffer = *buffers.first().ok_or_else(|| failed(vk::Result::ERROR_UNKNOWN))?;
+        Ok(Commands { pool, buffer })
+    }
+
+    /// Ends recording and submits; the value that the timeline reaches afterwards.
+    fn end_and_submit(&self, queue: &mut Queue, commands: &Commands) -> Result<u64, GpuError> {
+        let failed = |result| GpuError::from_vulkan("submitting", result);
+        let value = queue.submitted + 1;
+        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(commands.buffer)];
+        let signals = [vk::SemaphoreSubmitInfo::default()
+            .semaphore(self.shared.timeline.raw)
+            .value(value)
+            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
+        let info = vk::SubmitInfo2::default().command_buffer_infos(&buffers).signal_semaphore_infos(&signals);
+        // SAFETY: the command buffer is complete; the lock on `queue` makes the access exclusive; what the commands use stays
+        // alive in the submission; the value is greater than all before.
+        unsafe {
+            self.raw().end_command_buffer(commands.buffer).map_err(failed)?;
+            self.raw().queue_submit2(queue.raw, &[info], vk::Fence::null()).map_err(failed)?;
+        }
+        queue.submitted = value;
+        Ok(value)
+    }
+}
+
+impl Submission {
+    /// Waits for the end and reads what was measured. Fails if a capture did not fit its buffer.
+    pub fn wait(mut self) -> Result<Report, GpuError> {
+        self.finish()?;
+        self.queries.report(&self.device)
+    }
+
+    /// Whether the GPU is done, without waiting.
+    pub fn is_done(&self) -> Result<bool, GpuError> {
+        // SAFETY: the timeline lives as long as the device, which self holds.
+        let reached = unsafe { self.device.raw().get_semaphore_counter_value(self.device.shared.timeline.raw) }
+            .map_err(|result| GpuError::from_vulkan("asking for progress", result))?;
+        Ok(reached >= self.timeline_value)
+    }
+
+    /// Waits, and gives the command buffer back for others to use.
+    fn finish(&mut self) -> Result<(), GpuError> {
+        if self.commands.is_some() {
+            self.device.wait_for(self.timeline_value, "waiting for a submission")?;
+            let commands = self.commands.take();
+            self.device.queue().idle.extend(commands);
+        }
+        Ok(())
+    }
+}
+
+impl Drop for Submission {
+    fn drop(&mut self) {
+        // Waiting fails only if the device is lost; Vulkan then lets go of everything.
+        if let Err(error) = self.finish() {
+            tracing::error!("a submission ended with its device: {error}");
+        }
+    }
+}
+
+impl std::fmt::Debug for Submission {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Submission").field("timeline_value", &self.timeline_value).finish_non_exhaustive()
+    }
+}
