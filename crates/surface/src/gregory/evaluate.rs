@@ -54,12 +54,8 @@ fn distances(corner: usize, u: f64, v: f64) -> (f64, f64) {
 }
 
 /// Derivatives of [`distances`] of each corner: (a, b) along u, (a, b) along v.
-const DISTANCE_GRADIENTS: [[[f64; 2]; 2]; 4] = [
-    [[1.0, 0.0], [0.0, 1.0]],
-    [[0.0, -1.0], [1.0, 0.0]],
-    [[-1.0, 0.0], [0.0, -1.0]],
-    [[0.0, 1.0], [-1.0, 0.0]],
-];
+const DISTANCE_GRADIENTS: [[[f64; 2]; 2]; 4] =
+    [[[1.0, 0.0], [0.0, 1.0]], [[0.0, -1.0], [1.0, 0.0]], [[-1.0, 0.0], [0.0, -1.0]], [[0.0, 1.0], [-1.0, 0.0]]];
 
 /// Point and exact derivatives of the patch at (u, v), the blends differentiated with the rest.
 ///
@@ -91,16 +87,9 @@ fn blend_derivatives(corner: usize, u: f64, v: f64) -> [f64; 5] {
     }
     let [[au, bu], [av, bv]] = DISTANCE_GRADIENTS[corner];
     let first = |da: f64, db: f64| (b * da - a * db) / (sum * sum);
-    let second = |da: f64, db: f64, ea: f64, eb: f64| {
-        (eb * da - ea * db) / (sum * sum) - 2.0 * first(da, db) * (ea + eb) / sum
-    };
-    [
-        first(au, bu),
-        first(av, bv),
-        second(au, bu, au, bu),
-        second(au, bu, av, bv),
-        second(av, bv, av, bv),
-    ]
+    let second =
+        |da: f64, db: f64, ea: f64, eb: f64| (eb * da - ea * db) / (sum * sum) - 2.0 * first(da, db) * (ea + eb) / sum;
+    [first(au, bu), first(av, bv), second(au, bu, au, bu), second(au, bu, av, bv), second(av, bv, av, bv)]
 }
 
 #[cfg(test)]
@@ -119,14 +108,7 @@ mod tests {
     #[test]
     fn derivatives_match_differences() {
         let (points, h) = (scattered(), 1e-5);
-        for (u, v) in [
-            (0.3, 0.6),
-            (0.9, 0.2),
-            (0.05, 0.04),
-            (0.0, 0.5),
-            (1.0, 0.7),
-            (0.8, 1.0),
-        ] {
+        for (u, v) in [(0.3, 0.6), (0.9, 0.2), (0.05, 0.04), (0.0, 0.5), (1.0, 0.7), (0.8, 1.0)] {
             let at = |x: f64, y: f64| evaluate(&points, u + x * h, v + y * h);
             let jet = at(0.0, 0.0);
             let (u_gap, v_gap) = ((at(1.0, 0.0), at(-1.0, 0.0)), (at(0.0, 1.0), at(0.0, -1.0)));
@@ -139,10 +121,7 @@ mod tests {
                 (jet.duv, slope(v_gap, |j| j.du)),
                 (jet.dvv, slope(v_gap, |j| j.dv)),
             ] {
-                assert!(
-                    (got - expected).length() < 1e-6,
-                    "({u},{v}): {got} against {expected}"
-                );
+                assert!((got - expected).length() < 1e-6, "({u},{v}): {got} against {expected}");
             }
         }
     }
@@ -151,30 +130,18 @@ mod tests {
     fn freezing_the_blends_is_exact_on_the_sides() {
         let points = scattered();
         for (u, v) in [(0.0, 0.3), (1.0, 0.6), (0.2, 0.0), (0.7, 1.0)] {
-            let (exact, frozen) = (
-                evaluate(&points, u, v),
-                patch(&bezier_grid(&points, u, v), u, v),
-            );
-            assert!(
-                (exact.du - frozen.du).length() < 1e-15 && (exact.dv - frozen.dv).length() < 1e-15
-            );
+            let (exact, frozen) = (evaluate(&points, u, v), patch(&bezier_grid(&points, u, v), u, v));
+            assert!((exact.du - frozen.du).length() < 1e-15 && (exact.dv - frozen.dv).length() < 1e-15);
         }
     }
 
     #[test]
     fn corners_are_control_points_and_finite() {
         let points = scattered();
-        for (corner, (u, v)) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]
-            .into_iter()
-            .enumerate()
-        {
+        for (corner, (u, v)) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].into_iter().enumerate() {
             let jet = evaluate(&points, u, v);
             assert_eq!(jet.position, points[5 * corner]);
-            assert!(
-                [jet.du, jet.dv, jet.duu, jet.duv, jet.dvv]
-                    .iter()
-                    .all(|d| d.is_finite())
-            );
+            assert!([jet.du, jet.dv, jet.duu, jet.duv, jet.dvv].iter().all(|d| d.is_finite()));
         }
     }
 }

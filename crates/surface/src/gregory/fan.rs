@@ -41,12 +41,8 @@ impl Corner {
     /// Corner `i` of the patch.
     pub(super) fn of(kind: NetKind, i: usize) -> Self {
         match (kind, i) {
-            (NetKind::Interior { valence }, 0) => {
-                Self::at_vertex(kind, masks::interior(valence), valence, false)
-            }
-            (NetKind::Crease { faces, .. }, 0) => {
-                Self::at_vertex(kind, masks::crease(faces), faces, true)
-            }
+            (NetKind::Interior { valence }, 0) => Self::at_vertex(kind, masks::interior(valence), valence, false),
+            (NetKind::Crease { faces, .. }, 0) => Self::at_vertex(kind, masks::crease(faces), faces, true),
             _ => Self::regular(kind, i),
         }
     }
@@ -54,14 +50,7 @@ impl Corner {
     /// Corner 0 of an irregular net: the ring is the net's first points.
     fn at_vertex(kind: NetKind, mask: Matrix, faces: u32, open: bool) -> Self {
         let ring = (0..mask.cols()).map(Point::at).collect();
-        Self {
-            net_size: kind.net_size(),
-            ring,
-            mask,
-            faces: i64::from(faces),
-            open,
-            plus: kind.quad(),
-        }
+        Self { net_size: kind.net_size(), ring, mask, faces: i64::from(faces), open, plus: kind.quad() }
     }
 
     /// A corner of valence 4 on the grid, starting with the edge to the next corner.
@@ -74,14 +63,7 @@ impl Corner {
             ring.push(kind.grid(x + dx - dy, y + dy + dx));
             (dx, dy) = (-dy, dx);
         }
-        Self {
-            net_size: kind.net_size(),
-            ring,
-            mask: masks::interior(4),
-            faces: 4,
-            open: false,
-            plus: 0,
-        }
+        Self { net_size: kind.net_size(), ring, mask: masks::interior(4), faces: 4, open: false, plus: 0 }
     }
 
     /// The ring edge towards the next corner of the patch.
@@ -94,21 +76,25 @@ impl Corner {
         self.plus + 1
     }
 
-    /// Cosine of the angle between neighbouring edges.
+    /// Cosine of the angle between neighbouring edges, by which faces share their cross derivatives. A single face
+    /// shares with none: 0, as at a regular corner.
     pub(super) fn cosine(&self) -> f64 {
-        self.direction(1).0
+        if self.is_single_face() { 0.0 } else { self.direction(1).0 }
+    }
+
+    /// Whether the corner belongs to one face only, which then spans a straight angle in the tangent plane.
+    pub(super) fn is_single_face(&self) -> bool {
+        self.open && self.faces == 1
+    }
+
+    /// Whether neighbouring edges leave in opposite directions: cross derivatives vanish here.
+    pub(super) fn is_flat(&self) -> bool {
+        self.direction(1) == (-1.0, 0.0)
     }
 
     /// `(cos, sin)` of the angle of edge i.
     fn direction(&self, i: i64) -> (f64, f64) {
-        turn(
-            i,
-            if self.open {
-                2 * self.faces
-            } else {
-                self.faces
-            },
-        )
+        turn(i, if self.open { 2 * self.faces } else { self.faces })
     }
 
     /// The limit position.
@@ -124,21 +110,14 @@ impl Corner {
     /// The point e of edge i: `p + (cos t0 + sin t1) / 3`.
     pub(super) fn edge_point(&self, i: i64) -> Weights {
         let (cos, sin) = self.direction(i);
-        combine(&[
-            (1.0, &self.position()),
-            (cos / 3.0, &self.tangent(0)),
-            (sin / 3.0, &self.tangent(1)),
-        ])
+        combine(&[(1.0, &self.position()), (cos / 3.0, &self.tangent(0)), (sin / 3.0, &self.tangent(1))])
     }
 
     /// Bezier point 0 of the cross derivative D of edge i walked outwards: `3 (e(i+1) - e(i-1)) / 2`, written without
     /// the cancellation that many edges would bring.
     pub(super) fn cross_end(&self, i: i64) -> Weights {
         let ((cos, sin), step) = (self.direction(i), self.direction(1).1);
-        combine(&[
-            (-step * sin, &self.tangent(0)),
-            (step * cos, &self.tangent(1)),
-        ])
+        combine(&[(-step * sin, &self.tangent(0)), (step * cos, &self.tangent(1))])
     }
 
     /// Bezier point 1 of the cross derivative of edge i walked outwards: r of Loop 2009, `(E(i+1) - E(i-1))/3 +
