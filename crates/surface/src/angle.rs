@@ -33,10 +33,7 @@ mod tests {
             for num in -80..80 {
                 let x = std::f64::consts::TAU * num as f64 / den as f64;
                 let (c, s) = turn(num, den);
-                assert!(
-                    (c - x.cos()).abs() < 2e-13 && (s - x.sin()).abs() < 2e-13,
-                    "{num}/{den}"
-                );
+                assert!((c - x.cos()).abs() < 2e-13 && (s - x.sin()).abs() < 2e-13, "{num}/{den}");
             }
         }
         assert_eq!(turn(1, 4), (0.0, 1.0));

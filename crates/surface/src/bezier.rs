@@ -13,12 +13,7 @@ pub fn bernstein(t: f64) -> [f64; 4] {
 /// First derivatives of the four cubic Bernstein polynomials at `t`.
 pub fn bernstein_first(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
-    [
-        -3.0 * s * s,
-        3.0 * s * (s - 2.0 * t),
-        3.0 * t * (2.0 * s - t),
-        3.0 * t * t,
-    ]
+    [-3.0 * s * s, 3.0 * s * (s - 2.0 * t), 3.0 * t * (2.0 * s - t), 3.0 * t * t]
 }
 
 /// Second derivatives of the four cubic Bernstein polynomials at `t`.
@@ -38,20 +33,9 @@ pub fn patch(points: &[DVec3; 16], u: f64, v: f64) -> Jet {
     let along_u = [bernstein(u), bernstein_first(u), bernstein_second(u)];
     let along_v = [bernstein(v), bernstein_first(v), bernstein_second(v)];
     let sum = |du: usize, dv: usize| {
-        points
-            .iter()
-            .enumerate()
-            .map(|(k, &p)| along_u[du][k % 4] * along_v[dv][k / 4] * p)
-            .sum()
+        points.iter().enumerate().map(|(k, &p)| along_u[du][k % 4] * along_v[dv][k / 4] * p).sum()
     };
-    Jet {
-        position: sum(0, 0),
-        du: sum(1, 0),
-        dv: sum(0, 1),
-        duu: sum(2, 0),
-        duv: sum(1, 1),
-        dvv: sum(0, 2),
-    }
+    Jet { position: sum(0, 0), du: sum(1, 0), dv: sum(0, 1), duu: sum(2, 0), duv: sum(1, 1), dvv: sum(0, 2) }
 }
 
 #[cfg(test)]
@@ -75,8 +59,7 @@ mod tests {
 
     #[test]
     fn patch_of_a_plane_has_constant_derivatives() {
-        let points =
-            std::array::from_fn(|k| DVec3::new((k % 4) as f64 / 3.0, (k / 4) as f64 / 3.0, 2.0));
+        let points = std::array::from_fn(|k| DVec3::new((k % 4) as f64 / 3.0, (k / 4) as f64 / 3.0, 2.0));
         let jet = patch(&points, 0.3, 0.8);
         assert!((jet.position - DVec3::new(0.3, 0.8, 2.0)).length() < 1e-15);
         assert!((jet.du - DVec3::X).length() < 1e-14 && (jet.dv - DVec3::Y).length() < 1e-14);

@@ -26,12 +26,7 @@ pub fn weights(t: f64) -> [f64; 4] {
 /// First derivatives of [`weights`].
 pub fn derivative_weights(t: f64) -> [f64; 4] {
     let s = 1.0 - t;
-    [
-        -s * s / 2.0,
-        (3.0 * t * t - 4.0 * t) / 2.0,
-        (4.0 * s - 3.0 * s * s) / 2.0,
-        t * t / 2.0,
-    ]
+    [-s * s / 2.0, (3.0 * t * t - 4.0 * t) / 2.0, (4.0 * s - 3.0 * s * s) / 2.0, t * t / 2.0]
 }
 
 /// Bezier points of a curve segment from its four B-spline points.
@@ -42,9 +37,7 @@ pub fn curve_to_bezier(points: &[DVec3; 4]) -> [DVec3; 4] {
 /// The 16 x 16 change of basis of a bicubic patch. Rows are Bezier points, index `i + 4 j` with i along u; columns are
 /// B-spline points, index `(x+1) + 4 (y+1)`.
 pub fn patch_to_bezier() -> Matrix {
-    Matrix::from_fn(16, 16, |r, c| {
-        TO_BEZIER[r % 4][c % 4] * TO_BEZIER[r / 4][c / 4]
-    })
+    Matrix::from_fn(16, 16, |r, c| TO_BEZIER[r % 4][c % 4] * TO_BEZIER[r / 4][c / 4])
 }
 
 #[cfg(test)]
@@ -64,12 +57,7 @@ mod tests {
 
     #[test]
     fn bezier_form_has_the_same_values() {
-        let points = [
-            DVec3::X,
-            DVec3::new(2.0, -1.0, 0.5),
-            DVec3::new(0.0, 3.0, 1.0),
-            DVec3::NEG_ONE,
-        ];
+        let points = [DVec3::X, DVec3::new(2.0, -1.0, 0.5), DVec3::new(0.0, 3.0, 1.0), DVec3::NEG_ONE];
         let bezier_points = curve_to_bezier(&points);
         for i in 0..=8 {
             let t = f64::from(i) / 8.0;

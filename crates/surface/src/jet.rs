@@ -46,21 +46,10 @@ impl Jet {
     /// Surfaces*, section 3-3), or `None` where there is no normal.
     pub fn curvature(&self) -> Option<Curvature> {
         let normal = self.normal()?;
-        let (e, f, g) = (
-            self.du.dot(self.du),
-            self.du.dot(self.dv),
-            self.dv.dot(self.dv),
-        );
-        let (l, m, n) = (
-            self.duu.dot(normal),
-            self.duv.dot(normal),
-            self.dvv.dot(normal),
-        );
+        let (e, f, g) = (self.du.dot(self.du), self.du.dot(self.dv), self.dv.dot(self.dv));
+        let (l, m, n) = (self.duu.dot(normal), self.duv.dot(normal), self.dvv.dot(normal));
         let area = e * g - f * f;
-        Some(Curvature {
-            gaussian: (l * n - m * m) / area,
-            mean: (e * n - 2.0 * f * m + g * l) / (2.0 * area),
-        })
+        Some(Curvature { gaussian: (l * n - m * m) / area, mean: (e * n - 2.0 * f * m + g * l) / (2.0 * area) })
     }
 }
 
@@ -71,27 +60,16 @@ mod tests {
     #[test]
     fn cylinder_bends_in_one_direction_only() {
         // (2 sin u, v, 2 cos u) at u = 0, skewed by v -> v + u: radius 2, bending away from the normal.
-        let jet = Jet {
-            du: DVec3::new(2.0, 1.0, 0.0),
-            dv: DVec3::Y,
-            duu: DVec3::new(0.0, 0.0, -2.0),
-            ..Jet::default()
-        };
+        let jet =
+            Jet { du: DVec3::new(2.0, 1.0, 0.0), dv: DVec3::Y, duu: DVec3::new(0.0, 0.0, -2.0), ..Jet::default() };
         let curvature = jet.curvature().expect("regular point");
         assert!(curvature.gaussian.abs() < 1e-15 && (curvature.mean + 0.25).abs() < 1e-15);
-        assert_eq!(
-            curvature.principal().map(|k| (k * 1e12).round() / 1e12),
-            [0.0, -0.5]
-        );
+        assert_eq!(curvature.principal().map(|k| (k * 1e12).round() / 1e12), [0.0, -0.5]);
     }
 
     #[test]
     fn parallel_derivatives_have_no_normal() {
-        let jet = Jet {
-            du: DVec3::X,
-            dv: DVec3::X * 2.0,
-            ..Jet::default()
-        };
+        let jet = Jet { du: DVec3::X, dv: DVec3::X * 2.0, ..Jet::default() };
         assert_eq!((jet.normal(), jet.curvature()), (None, None));
     }
 }

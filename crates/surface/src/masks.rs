@@ -21,10 +21,7 @@ impl Subdominant {
     /// For a smooth vertex of valence n.
     fn of_valence(n: i64) -> Self {
         let h = turn(1, 2 * n).0;
-        Self {
-            h,
-            root: (4.0 + h * h).sqrt(),
-        }
+        Self { h, root: (4.0 + h * h).sqrt() }
     }
 
     fn lambda(&self) -> f64 {
@@ -54,10 +51,7 @@ impl Subdominant {
 /// # Panics
 /// If `valence < 2`.
 pub fn interior(valence: u32) -> Matrix {
-    assert!(
-        valence >= 2,
-        "an interior vertex has at least two edges, not {valence}"
-    );
+    assert!(valence >= 2, "an interior vertex has at least two edges, not {valence}");
     let n = i64::from(valence);
     let sub = Subdominant::of_valence(n);
     let (edge, square) = (sub.edge_weight(n), (n * n) as f64);
@@ -151,11 +145,7 @@ mod tests {
         for n in [2, 3, 4, 5, 7, 12, 64, 401, 1000] {
             for m in [interior(n), crease(n), crease(1)] {
                 assert!((row_sum(&m, 0) - 1.0).abs() < 1e-13);
-                assert!(
-                    row_sum(&m, 1).abs() < 1e-13 && row_sum(&m, 2).abs() < 1e-13,
-                    "{n}: {}",
-                    row_sum(&m, 2)
-                );
+                assert!(row_sum(&m, 1).abs() < 1e-13 && row_sum(&m, 2).abs() < 1e-13, "{n}: {}", row_sum(&m, 2));
             }
         }
     }
@@ -164,14 +154,7 @@ mod tests {
     fn valence_four_is_the_bicubic_derivative() {
         let m = interior(4);
         let expected = [0.0, 4.0, 1.0, 0.0, -1.0, -4.0, -1.0, 0.0, 1.0].map(|w| w / 12.0);
-        assert!(
-            m.row(1)
-                .iter()
-                .zip(expected)
-                .all(|(a, b)| (a - b).abs() < 1e-16),
-            "{:?}",
-            m.row(1)
-        );
+        assert!(m.row(1).iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-16), "{:?}", m.row(1));
     }
 
     #[test]
@@ -179,14 +162,7 @@ mod tests {
         let m = crease(2);
         // (row above the boundary - boundary row), each filtered by (1,4,1)/6: V, E0, F0, E1, F1, E2.
         let expected = [-4.0, -1.0, 1.0, 4.0, 1.0, -1.0].map(|w| w / 6.0);
-        assert!(
-            m.row(2)
-                .iter()
-                .zip(expected)
-                .all(|(a, b)| (a - b).abs() < 1e-15),
-            "{:?}",
-            m.row(2)
-        );
+        assert!(m.row(2).iter().zip(expected).all(|(a, b)| (a - b).abs() < 1e-15), "{:?}", m.row(2));
     }
 
     #[test]

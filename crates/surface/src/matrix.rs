@@ -15,19 +15,13 @@ pub struct Matrix {
 impl Matrix {
     /// The matrix whose entry at row `r`, column `c` is `entry(r, c)`.
     pub fn from_fn(rows: usize, cols: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Self {
-        let data = (0..rows * cols)
-            .map(|i| entry(i / cols, i % cols))
-            .collect();
+        let data = (0..rows * cols).map(|i| entry(i / cols, i % cols)).collect();
         Self { rows, cols, data }
     }
 
     /// The `rows` by `cols` matrix of zeros.
     pub fn zeros(rows: usize, cols: usize) -> Self {
-        Self {
-            rows,
-            cols,
-            data: vec![0.0; rows * cols],
-        }
+        Self { rows, cols, data: vec![0.0; rows * cols] }
     }
 
     /// Stacks rows of equal length.
@@ -36,16 +30,9 @@ impl Matrix {
     /// If the rows differ in length.
     pub fn from_rows<R: AsRef<[f64]>>(rows: &[R]) -> Self {
         let cols = rows.first().map_or(0, |r| r.as_ref().len());
-        assert!(
-            rows.iter().all(|r| r.as_ref().len() == cols),
-            "rows of a matrix must have equal lengths"
-        );
+        assert!(rows.iter().all(|r| r.as_ref().len() == cols), "rows of a matrix must have equal lengths");
         let data = rows.iter().flat_map(|r| r.as_ref()).copied().collect();
-        Self {
-            rows: rows.len(),
-            cols,
-            data,
-        }
+        Self { rows: rows.len(), cols, data }
     }
 
     /// Number of outputs.
@@ -71,11 +58,7 @@ impl Matrix {
     /// # Panics
     /// If `r` or `c` is out of range.
     pub fn set(&mut self, r: usize, c: usize, weight: f64) {
-        assert!(
-            c < self.cols,
-            "column {c} of a matrix with {} columns",
-            self.cols
-        );
+        assert!(c < self.cols, "column {c} of a matrix with {} columns", self.cols);
         self.data[r * self.cols + c] = weight;
     }
 
@@ -97,16 +80,9 @@ impl Matrix {
     /// # Panics
     /// If `self.cols() != right.rows()`.
     pub fn mul(&self, right: &Self) -> Self {
-        assert_eq!(
-            self.cols, right.rows,
-            "inner dimensions of a matrix product"
-        );
+        assert_eq!(self.cols, right.rows, "inner dimensions of a matrix product");
         Self::from_fn(self.rows, right.cols, |r, c| {
-            self.row(r)
-                .iter()
-                .enumerate()
-                .map(|(k, w)| w * right.data[k * right.cols + c])
-                .sum()
+            self.row(r).iter().enumerate().map(|(k, w)| w * right.data[k * right.cols + c]).sum()
         })
     }
 
@@ -115,21 +91,12 @@ impl Matrix {
     /// # Panics
     /// If `net.len() != self.cols()`.
     pub fn apply(&self, net: &[DVec3]) -> Vec<DVec3> {
-        assert_eq!(
-            net.len(),
-            self.cols,
-            "points of the net against columns of the matrix"
-        );
-        (0..self.rows)
-            .map(|r| self.row(r).iter().zip(net).map(|(&w, &p)| w * p).sum())
-            .collect()
+        assert_eq!(net.len(), self.cols, "points of the net against columns of the matrix");
+        (0..self.rows).map(|r| self.row(r).iter().zip(net).map(|(&w, &p)| w * p).sum()).collect()
     }
 
     /// All weights rounded to `f32`, row after row: what a storage buffer holds.
-    #[expect(
-        clippy::cast_possible_truncation,
-        reason = "rounding to f32 is the purpose"
-    )]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is the purpose")]
     pub fn to_f32(&self) -> Vec<f32> {
         self.data.iter().map(|&w| w as f32).collect()
     }

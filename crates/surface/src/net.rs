@@ -48,9 +48,7 @@ impl NetKind {
             Self::Regular => 16,
             Self::Interior { valence } => 2 * valence as usize + 8,
             Self::Crease { faces, .. } => {
-                2 * faces as usize + 9
-                    - usize::from(self.side_is_sharp(0))
-                    - usize::from(self.side_is_sharp(3))
+                2 * faces as usize + 9 - usize::from(self.side_is_sharp(0)) - usize::from(self.side_is_sharp(3))
             }
         }
     }
@@ -79,10 +77,7 @@ impl Point {
 
     /// The point `2 mirror - inner`, the reflection of `inner` beyond a boundary.
     pub(crate) fn reflected(mirror: &Self, inner: &Self) -> Self {
-        let (m, n) = (
-            mirror.0.iter().map(|&(i, w)| (i, 2.0 * w)),
-            inner.0.iter().map(|&(i, w)| (i, -w)),
-        );
+        let (m, n) = (mirror.0.iter().map(|&(i, w)| (i, 2.0 * w)), inner.0.iter().map(|&(i, w)| (i, -w)));
         Self(m.chain(n).collect())
     }
 
@@ -105,12 +100,8 @@ impl NetKind {
     pub(crate) fn grid(self, x: i32, y: i32) -> Point {
         match self {
             Self::Regular => Point::at(((x + 1) + 4 * (y + 1)) as usize),
-            _ if y < 0 && self.side_is_sharp(0) => {
-                Point::reflected(&self.grid(x, 0), &self.grid(x, 1))
-            }
-            _ if x < 0 && self.side_is_sharp(3) => {
-                Point::reflected(&self.grid(0, y), &self.grid(1, y))
-            }
+            _ if y < 0 && self.side_is_sharp(0) => Point::reflected(&self.grid(x, 0), &self.grid(x, 1)),
+            _ if x < 0 && self.side_is_sharp(3) => Point::reflected(&self.grid(0, y), &self.grid(1, y)),
             _ => Point::at(self.grid_index(x, y)),
         }
     }
@@ -138,9 +129,7 @@ impl NetKind {
         match self {
             Self::Regular => 0,
             Self::Interior { valence } => 2 * valence as usize + 1,
-            Self::Crease { faces, .. } => {
-                2 * faces as usize + 2 - usize::from(self.side_is_sharp(0))
-            }
+            Self::Crease { faces, .. } => 2 * faces as usize + 2 - usize::from(self.side_is_sharp(0)),
         }
     }
 
@@ -173,16 +162,7 @@ mod tests {
         assert_eq!(NetKind::Regular.net_size(), 16);
         assert_eq!(NetKind::Interior { valence: 5 }.net_size(), 18);
         let crease = |faces, quad| NetKind::Crease { faces, quad }.net_size();
-        assert_eq!(
-            [
-                crease(1, 0),
-                crease(2, 0),
-                crease(2, 1),
-                crease(3, 1),
-                crease(5, 4)
-            ],
-            [9, 12, 12, 15, 18]
-        );
+        assert_eq!([crease(1, 0), crease(2, 0), crease(2, 1), crease(3, 1), crease(5, 4)], [9, 12, 12, 15, 18]);
     }
 
     #[test]
@@ -195,15 +175,9 @@ mod tests {
 
     #[test]
     fn every_net_point_but_those_behind_the_vertex_is_on_the_grid() {
-        for kind in [
-            NetKind::Interior { valence: 3 },
-            NetKind::Crease { faces: 3, quad: 1 },
-        ] {
+        for kind in [NetKind::Interior { valence: 3 }, NetKind::Crease { faces: 3, quad: 1 }] {
             let mut seen = vec![0; kind.net_size()];
-            for (x, y) in (-1..=2)
-                .flat_map(|y| (-1..=2).map(move |x| (x, y)))
-                .filter(|&at| at != (-1, -1))
-            {
+            for (x, y) in (-1..=2).flat_map(|y| (-1..=2).map(move |x| (x, y))).filter(|&at| at != (-1, -1)) {
                 seen[kind.grid_index(x, y)] += 1;
             }
             // At three edges or faces (-1,0) and (0,-1), or (-1,1) and (1,-1), may be the same point.
