@@ -3,9 +3,9 @@
 //! Interior: Halstead, Kass and DeRose, *Efficient, Fair Interpolation using Catmull-Clark Surfaces* (1993), section 3
 //! and appendix A; the scale of the tangents is that of the edge points in Loop, Schaefer, Ni and Castano,
 //! *Approximating Subdivision Surfaces with Gregory Patches for Hardware Tessellation* (2009), section 3.
-//! Boundary: left eigenvectors of the standard rules (1:6:1 along the boundary, smooth rule for the edges that end on
-//! it), section "crease" of [`crease`]. This differs from Loop 2009 section 5, whose cross tangent belongs to modified
-//! edge rules and is 3 to 10 degrees off for 3 to 12 faces.
+//! Boundary: left eigenvectors of the standard rules, 1:6:1 along the boundary and the smooth rule for the edges that
+//! end on it. This differs from Loop 2009 section 5, whose cross tangent belongs to modified edge rules and is 3 to 10
+//! degrees off for 3 to 12 faces.
 
 use crate::angle::turn;
 use crate::matrix::Matrix;
