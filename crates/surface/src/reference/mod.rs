@@ -2,12 +2,13 @@
 //!
 //! A point is found by subdividing the neighbourhood of its face, always towards the child that
 //! holds the point, until that child is a regular bicubic B-spline patch; at a vertex that no such
-//! patch reaches, limit masks answer. The descent works on plain averages of points, with no basis
-//! change and no eigenvectors, so that it shares nothing with the patch schemes it judges: E.
-//! Catmull, J. Clark, *Recursively generated B-spline surfaces on arbitrary topological meshes*,
-//! Computer-Aided Design 10(6), 1978 (rules); M. Halstead, M. Kass, T. DeRose, *Efficient, fair
-//! interpolation using Catmull-Clark surfaces*, SIGGRAPH 1993, appendix A (masks at interior
-//! vertices).
+//! patch reaches, limit masks answer. The descent works on plain averages of points, with no change
+//! of basis, so that it shares nothing with the patch schemes it judges.
+//!
+//! * Rules: E. Catmull, J. Clark, *Recursively generated B-spline surfaces on arbitrary topological
+//!   meshes*, Computer-Aided Design 10(6), 1978.
+//! * Masks at interior vertices: M. Halstead, M. Kass, T. DeRose, *Efficient, fair interpolation
+//!   using Catmull-Clark surfaces*, SIGGRAPH 1993, appendix A.
 //!
 //! | file | idea |
 //! |---|---|

@@ -14,8 +14,7 @@ struct Side {
 }
 
 impl Side {
-    /// The surface at fraction `x` of the side, and its derivative towards the inside scaled as for
-    /// a quad.
+    /// The surface at fraction `x` of the side.
     fn at(&self, reference: &Reference<'_>, x: f64) -> Sample {
         let (sub, s, t) = if self.sides == 4 {
             let (s, t) = [(x, 0.0), (1.0, x), (1.0 - x, 1.0), (0.0, 1.0 - x)][self.corner];
