@@ -112,7 +112,7 @@ pub(crate) fn write() -> anyhow::Result<()> {
     Ok(())
 }
 
-/// Fails if a committed file differs from what [`write`] would write, or belongs to no cage.
+/// Fails if a committed file differs from what [`write()`] would write, or belongs to no cage.
 pub(crate) fn check() -> anyhow::Result<()> {
     let folder = folder();
     let expected = files()?;

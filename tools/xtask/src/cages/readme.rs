@@ -8,9 +8,9 @@ use super::survey::Survey;
 
 const HEAD: &str = "# Cages
 
-Control cages made for this project, for tests and pictures. All of them, and this table, are written by `cargo xtask
-cages`; `cargo xtask cages --check` fails if a file differs from what its generator writes. Valences are those of interior
-vertices; \"boundary\" counts the faces at boundary vertices.
+Control cages made for this project, for tests and pictures. All of them, and this table, are written by
+`cargo xtask cages`; `cargo xtask cages --check` fails if a file differs from what its generator writes. Valences are
+those of interior vertices; \"boundary\" lists the numbers of faces that occur at boundary vertices.
 
 | file | vertices | faces | valence | boundary | exercises |
 |---|---|---|---|---|---|

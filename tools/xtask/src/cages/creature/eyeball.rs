@@ -29,8 +29,7 @@ pub(super) fn eyeball(half: &mut Half, center: DVec3, gaze: DVec3, radius: f64) 
     for point in &mut half.points[front[0]..] {
         *point = center + radius * (*point - center).normalize();
     }
-    let made = half.points.len() - front[0];
-    half.softness[front[0]..].copy_from_slice(&vec![0.0; made]);
+    half.softness[front[0]..].fill(0.0);
     pupil(half, iris, center, gaze, radius);
 }
 

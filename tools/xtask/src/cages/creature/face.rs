@@ -10,7 +10,7 @@ use super::half::{Half, Sheet, SheetId};
 use super::tube::{Ring, TubeDesc, Turn, first_spoke, tube};
 
 /// Radius of the eyeball's cage.
-const EYE: f64 = 0.125;
+const EYE: f64 = 0.150;
 
 /// Everything on the head that isn't part of the loft.
 pub(super) fn face(half: &mut Half, trunk: SheetId) {
@@ -22,10 +22,10 @@ pub(super) fn face(half: &mut Half, trunk: SheetId) {
 
 /// An opening with lids round a ball.
 fn eye(half: &mut Half, trunk: SheetId) {
-    let gaze = dvec3(0.76, 0.22, 0.62).normalize();
+    let gaze = dvec3(0.74, 0.20, 0.64).normalize();
     let rim = half.cut(trunk, 4..6, 1..3);
     half.soften(&rim, 0.3);
-    let center = half.middle(&rim) - 0.40 * EYE * gaze;
+    let center = half.middle(&rim) - 0.52 * EYE * gaze;
     let spoke = first_spoke(half, &rim, center, gaze);
     let mut rows = vec![rim];
     for (index, lid) in LIDS.iter().enumerate() {
@@ -47,10 +47,10 @@ struct Lid {
 
 /// From the face to the edge of the lids and inward.
 const LIDS: [Lid; 4] = [
-    Lid { angles: [96.0, 88.0], distance: 1.42 },
-    Lid { angles: [78.0, 64.0], distance: 1.27 },
-    Lid { angles: [64.0, 48.0], distance: 1.14 },
-    Lid { angles: [66.0, 52.0], distance: 0.85 },
+    Lid { angles: [90.0, 76.0], distance: 1.24 },
+    Lid { angles: [76.0, 58.0], distance: 1.15 },
+    Lid { angles: [68.0, 49.0], distance: 1.09 },
+    Lid { angles: [68.0, 50.0], distance: 0.85 },
 ];
 
 impl Lid {
@@ -66,14 +66,22 @@ impl Lid {
 
 /// A dimple with a raised rim on top of the snout.
 fn nostril(half: &mut Half, trunk: SheetId) {
-    let rim = half.cut(trunk, 0..1, 1..2);
+    let rim = half.cut(trunk, 1..2, 1..2);
     let center = half.middle(&rim);
-    let out = dvec3(0.45, 0.6, 0.65).normalize();
-    let rings = [Ring::round(center + 0.02 * out, 0.05), Ring::round(center - 0.03 * out, 0.03)];
-    let sheet = tube(half, &rim, &rings, &TubeDesc { root: out, softness: [0.0, 0.0], turn: Turn::Free });
-    let bottom = half.sheets[sheet].rows[rings.len()].clone();
+    let [a, b, c, d] = [0, 1, 2, 3].map(|k| half.points[rim[k]]);
+    let out = (c - a).cross(d - b).normalize();
+    let mut rows = vec![rim.clone()];
+    for (rise, share) in NOSTRIL {
+        let points: Vec<DVec3> = [a, b, c, d].map(|point| center.lerp(point, share) + rise * out).into();
+        rows.push(half.add(points, 0.0));
+    }
+    let bottom = rows[NOSTRIL.len()].clone();
+    half.add_sheet(Sheet { rows, closed: true, midline: false });
     half.cap(&bottom, 1, 1, DVec3::ZERO);
 }
+
+/// Rings of a nostril: rise over the snout, and size as a share of the rim's.
+const NOSTRIL: [(f64, f64); 3] = [(0.016, 0.84), (0.006, 0.56), (-0.05, 0.50)];
 
 fn horn(half: &mut Half, trunk: SheetId) {
     let rings = [

@@ -150,3 +150,36 @@ impl Half {
 pub(super) fn reflect(p: DVec3) -> DVec3 {
     dvec3(-p.x, p.y, p.z)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A flat sheet in the plane y = 0, its outside above, with column 0 at x = 0.
+    fn flat(midline: bool) -> (Half, SheetId) {
+        let mut half = Half::default();
+        let mut row = |z: i32| half.add((0..4).map(|x| dvec3(f64::from(x), 0.0, f64::from(-z))), 0.0);
+        let rows = (0..4).map(&mut row).collect();
+        let sheet = half.add_sheet(Sheet { rows, closed: false, midline });
+        (half, sheet)
+    }
+
+    fn upward(half: &Half, cell: Cell) -> f64 {
+        let [a, b, c, d] = half.corners(cell).map(|vertex| half.points[vertex]);
+        (c - a).cross(d - b).y
+    }
+
+    #[test]
+    fn a_cap_fills_what_was_cut() {
+        for (midline, columns) in [(false, 1..3), (true, 0..2)] {
+            let (mut half, sheet) = flat(midline);
+            let rim = half.cut(sheet, 1..3, columns.clone());
+            assert_eq!(rim.len(), if midline { 7 } else { 8 });
+            assert_eq!(half.cells.len(), 5);
+            let cap = half.cap(&rim, 2, 2, DVec3::ZERO);
+            assert_eq!(half.cells.len(), 9);
+            let added: Vec<Cell> = half.cells.iter().copied().filter(|cell| cell.sheet == cap).collect();
+            assert!(added.iter().all(|cell| (upward(&half, *cell) - 2.0).abs() < 1e-12), "midline {midline}");
+        }
+    }
+}

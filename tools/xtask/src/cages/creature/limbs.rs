@@ -48,10 +48,10 @@ pub(super) fn legs(half: &mut Half, trunk: SheetId) {
 
 fn leg(half: &mut Half, trunk: SheetId, desc: &LegDesc) {
     let rim = half.cut(trunk, desc.rows.clone(), COLUMNS);
-    half.soften(&rim, 0.35);
+    half.soften(&rim, 0.5);
     let ring = |&[x, y, z, radius, long]: &[f64; 5]| Ring::round(dvec3(x, y, z), radius).squashed(DVec3::Z, long);
     let rings: Vec<Ring> = desc.rings.iter().map(ring).collect();
-    let how = TubeDesc { root: dvec3(0.8, -0.6, 0.0), softness: [0.3, 0.05], turn: Turn::Side(DVec3::Z) };
+    let how = TubeDesc { root: dvec3(0.8, -0.6, 0.0), softness: [0.4, 0.05], turn: Turn::Side(DVec3::Z) };
     let sheet = tube(half, &rim, &rings, &how);
     let sole = half.sheets[sheet].rows[rings.len()].clone();
     half.cap(&sole, desc.rows.len(), COLUMNS.len(), DVec3::ZERO);
@@ -78,7 +78,7 @@ fn toe(half: &mut Half, leg: SheetId, row: usize, column: usize) {
     let base = half.middle(&rim);
     let out = (base - foot).with_y(0.0).normalize().lerp(DVec3::Z, 0.4).normalize();
     let ring = |along: f64, drop: f64, radius: f64| Ring::round(base + along * out - DVec3::Y * drop, radius);
-    let rings = [ring(0.012, 0.0, 0.072), ring(0.060, 0.002, 0.084), ring(0.105, 0.010, 0.066)];
+    let rings = [ring(0.010, 0.0, 0.084), ring(0.065, 0.006, 0.084), ring(0.118, 0.018, 0.050)];
     let sheet = tube(half, &rim, &rings, &TubeDesc { root: out, softness: [0.0, 0.0], turn: Turn::Free });
     let tip = half.sheets[sheet].rows[rings.len()].clone();
     half.cap(&tip, 1, 1, DVec3::ZERO);

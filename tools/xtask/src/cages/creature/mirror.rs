@@ -122,3 +122,26 @@ fn flatten(half: &Half, sheet: &Sheet) -> Vec<Vec<DVec2>> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::symmetric;
+    use super::*;
+
+    #[test]
+    fn the_whole_is_its_own_mirror_image() {
+        let key = |p: DVec3| [p.x, p.y, p.z].map(|x| (x * 1e9).round() as i64);
+        let mesh = whole(&symmetric());
+        let points: std::collections::BTreeSet<_> = mesh.points.iter().map(|p| key(*p)).collect();
+        assert!(mesh.points.iter().all(|p| points.contains(&key(reflect(*p)))));
+    }
+
+    #[test]
+    fn no_face_is_flipped_or_collapsed_in_the_texture() {
+        let uv = whole(&symmetric()).uv.expect("texture coordinates");
+        for face in &uv.faces {
+            let [a, b, c, d] = [0, 1, 2, 3].map(|corner| uv.points[face[corner]]);
+            assert!((c - a).perp_dot(d - b) > 1e-7, "{face:?}");
+        }
+    }
+}

@@ -21,8 +21,15 @@ mod wings;
 
 use half::Half;
 
-/// The dragon: closed, all quads.
+/// The dragon: closed, all quads, its eyes components of their own.
 pub(super) fn dragon() -> Mesh {
+    let mut mesh = mirror::whole(&symmetric());
+    mesh.points.iter_mut().for_each(|point| *point = pose::pose(*point));
+    mesh
+}
+
+/// The right half before the pose.
+fn symmetric() -> Half {
     let mut half = Half::default();
     let trunk = body::body(&mut half);
     limbs::legs(&mut half, trunk);
@@ -30,7 +37,5 @@ pub(super) fn dragon() -> Mesh {
     ridge::ridge(&mut half, trunk);
     face::face(&mut half, trunk);
     fair::fair(&mut half);
-    let mut mesh = mirror::whole(&half);
-    mesh.points.iter_mut().for_each(|point| *point = pose::pose(*point));
-    mesh
+    half
 }

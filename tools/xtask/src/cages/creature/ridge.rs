@@ -6,7 +6,7 @@ use super::half::{Half, Sheet, SheetId};
 
 /// Rows of the trunk that carry a spine, and its height.
 const SPINES: [(usize, f64); 9] =
-    [(9, 0.11), (11, 0.12), (13, 0.12), (15, 0.13), (17, 0.14), (19, 0.14), (21, 0.13), (23, 0.11), (25, 0.09)];
+    [(8, 0.12), (10, 0.12), (12, 0.12), (16, 0.13), (18, 0.14), (20, 0.14), (22, 0.13), (24, 0.11), (26, 0.09)];
 
 /// Grows the spines.
 pub(super) fn ridge(half: &mut Half, trunk: SheetId) {

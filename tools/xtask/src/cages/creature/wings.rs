@@ -23,21 +23,21 @@ const LEADING: &Keys<3> = &[
 /// Trailing edge by row.
 const TRAILING: &Keys<3> = &[
     (0.0, [0.25, 1.03, -0.16]),
-    (2.0, [0.36, 1.07, -0.48]),
-    (4.0, [0.46, 1.20, -0.82]),
-    (6.0, [0.57, 1.48, -1.00]),
-    (8.0, [0.67, 1.92, -0.90]),
+    (2.0, [0.36, 1.14, -0.48]),
+    (4.0, [0.46, 1.30, -0.82]),
+    (6.0, [0.57, 1.54, -1.00]),
+    (8.0, [0.67, 1.95, -0.90]),
 ];
 /// How far the membrane falls short of the trailing edge between two fingers, as a share of the chord.
-const SCALLOP: f64 = 0.28;
+const SCALLOP: f64 = 0.32;
 
 /// Grows the right wing.
 pub(super) fn wing(half: &mut Half, trunk: SheetId) {
     let rim = half.cut(trunk, ROOT..ROOT + CHORD, 1..2);
-    half.soften(&rim, 0.1);
+    half.soften(&rim, 0.4);
     let mut rows = vec![rim];
     for row in 1..=SPAN {
-        rows.push(half.add(section(row as f64), 0.0));
+        rows.push(half.add(section(row as f64), if row == 1 { 0.3 } else { 0.0 }));
     }
     let tip = rows[SPAN].clone();
     half.add_sheet(Sheet { rows, closed: true, midline: false });
@@ -49,14 +49,14 @@ fn section(row: f64) -> Vec<DVec3> {
     let lead = DVec3::from(sample(LEADING, row));
     let full = DVec3::from(sample(TRAILING, row));
     let between_fingers = row % 2.0 == 1.0;
-    let trail = full.lerp(lead, if between_fingers { SCALLOP } else { 0.0 });
+    let trail = full.lerp(lead, if between_fingers && row > 1.0 { SCALLOP } else { 0.0 });
     let along = DVec3::from(sample(LEADING, row + 0.5)) - DVec3::from(sample(LEADING, row - 0.5));
     let up = (trail - lead).cross(along).normalize();
     let up = if up.x < 0.0 { up } else { -up };
-    let finger = if between_fingers { 0.0 } else { 0.014 };
+    let finger = if between_fingers { 0.0 } else { 0.026 };
     let point = |chord: usize, side: f64| {
         let t = chord as f64 / CHORD as f64;
-        let thickness = if chord == 0 { 0.035 } else { 0.012 + finger * (1.0 - t) };
+        let thickness = if chord == 0 { 0.035 } else { 0.010 + finger * (1.0 - t) };
         let camber = 0.16 * t * (1.0 - t) * lead.distance(trail);
         lead.lerp(trail, t) + (camber + side * thickness) * up
     };
