@@ -1,2 +1,45 @@
 //! The `osculate` command.
-fn main() {}
+
+mod args;
+mod commands;
+mod failure;
+mod input;
+mod logging;
+#[cfg(test)]
+mod mesh;
+mod options;
+mod progress;
+mod samples;
+mod stdout;
+
+use args::{Cli, Command};
+use clap::{CommandFactory, Parser};
+use failure::{Failure, Verdict};
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return failure::report_parser(&error),
+    };
+    logging::start(cli.global.quiet, cli.global.verbose);
+    match run(cli) {
+        Ok(verdict) => verdict.into(),
+        Err(failure) => failure.report(),
+    }
+}
+
+fn run(cli: Cli) -> Result<Verdict, Failure> {
+    let global = &cli.global;
+    match cli.command {
+        Some(Command::Sample(args)) => commands::sample::run(&args.validate()?, global),
+        Some(Command::Compare(args)) => commands::compare::run(&args.validate()?),
+        None => Err(no_command()),
+    }
+}
+
+/// Nothing was asked for: the list of commands is the best answer, but it is not a result.
+fn no_command() -> Failure {
+    let names: Vec<String> = Cli::command().get_subcommands().map(|command| command.get_name().to_owned()).collect();
+    Failure::usage("no command").with_hint(format_args!("the commands are {}; see --help", names.join(", ")))
+}

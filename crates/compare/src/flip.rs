@@ -13,9 +13,7 @@ pub struct CompareDesc {
 
 impl Default for CompareDesc {
     fn default() -> Self {
-        Self {
-            pixels_per_degree: nv_flip::DEFAULT_PIXELS_PER_DEGREE,
-        }
+        Self { pixels_per_degree: nv_flip::DEFAULT_PIXELS_PER_DEGREE }
     }
 }
 
@@ -47,10 +45,7 @@ pub struct Comparison {
 pub fn compare(a: &Picture, b: &Picture, desc: &CompareDesc) -> Result<Comparison, CompareError> {
     let size = a.size();
     if size != b.size() {
-        return Err(CompareError::SizesDiffer {
-            a: size,
-            b: b.size(),
-        });
+        return Err(CompareError::SizesDiffer { a: size, b: b.size() });
     }
     if size.pixels() > MAX_PIXELS {
         return Err(CompareError::TooLarge(size));
@@ -58,21 +53,14 @@ pub fn compare(a: &Picture, b: &Picture, desc: &CompareDesc) -> Result<Compariso
     let mut map = flip_over(a, b, 0, desc);
     if !(a.is_opaque() && b.is_opaque()) {
         let over_white = flip_over(a, b, u8::MAX, desc);
-        map.iter_mut()
-            .zip(over_white)
-            .for_each(|(value, white)| *value = value.max(white));
+        map.iter_mut().zip(over_white).for_each(|(value, white)| *value = value.max(white));
     }
     Ok(Comparison {
         size,
         mean: mean(&map),
         p99: percentile(&map, 0.99),
         max: map.iter().copied().fold(0.0, f32::max),
-        alpha: a
-            .pixels()
-            .zip(b.pixels())
-            .map(|(a, b)| a[3].abs_diff(b[3]))
-            .max()
-            .unwrap_or(0),
+        alpha: a.pixels().zip(b.pixels()).map(|(a, b)| a[3].abs_diff(b[3])).max().unwrap_or(0),
         map,
     })
 }
@@ -85,11 +73,7 @@ impl Comparison {
         let Size { width, height } = self.size;
         let map = FlipImageFloat::with_data(width, height, &self.map);
         let rgb = map.apply_color_lut(&nv_flip::magma_lut()).to_vec();
-        let rgba = rgb
-            .as_chunks::<3>()
-            .0
-            .iter()
-            .flat_map(|&[r, g, b]| [r, g, b, u8::MAX]);
+        let rgba = rgb.as_chunks::<3>().0.iter().flat_map(|&[r, g, b]| [r, g, b, u8::MAX]);
         Picture::new(width, height, rgba.collect()).expect("four bytes per pixel of the map")
     }
 }
@@ -97,10 +81,7 @@ impl Comparison {
 /// The FLIP map of two pictures of one size over the grey `background`.
 fn flip_over(a: &Picture, b: &Picture, background: u8, desc: &CompareDesc) -> Vec<f32> {
     let over = |picture: &Picture| {
-        let rgb: Vec<u8> = picture
-            .pixels()
-            .flat_map(|pixel| composite(pixel, background))
-            .collect();
+        let rgb: Vec<u8> = picture.pixels().flat_map(|pixel| composite(pixel, background)).collect();
         FlipImageRgb8::with_data(picture.size().width, picture.size().height, &rgb)
     };
     nv_flip::flip(over(a), over(b), desc.pixels_per_degree).to_vec()
@@ -159,12 +140,6 @@ mod tests {
         let [black, white] = [0, 255].map(|c| Picture::new(1, 1, vec![c, c, c, 255]).unwrap());
         let comparison = compare(&black, &white, &CompareDesc::default()).unwrap();
         assert!(comparison.mean > 0.9, "{comparison:?}");
-        assert_eq!(
-            comparison.picture().size(),
-            Size {
-                width: 1,
-                height: 1
-            }
-        );
+        assert_eq!(comparison.picture().size(), Size { width: 1, height: 1 });
     }
 }

@@ -61,9 +61,7 @@ pub enum GoldenError {
         source: CompareError,
     },
     /// The golden, or the picture that was to become it, is above [`MAX_GOLDEN_BYTES`].
-    #[error(
-        "golden {name} has {bytes} bytes; at most {MAX_GOLDEN_BYTES} are allowed, draw it smaller"
-    )]
+    #[error("golden {name} has {bytes} bytes; at most {MAX_GOLDEN_BYTES} are allowed, draw it smaller")]
     TooLarge {
         /// Name of the golden.
         name: String,
@@ -87,11 +85,7 @@ impl Goldens {
     #[must_use]
     pub fn new(folder: impl Into<PathBuf>) -> Self {
         let bless = std::env::var_os(BLESS_VARIABLE).is_some_and(|value| value == "1");
-        Self {
-            folder: folder.into(),
-            side_folder: side_folder(),
-            bless,
-        }
+        Self { folder: folder.into(), side_folder: side_folder(), bless }
     }
 
     /// Compares `picture` with the golden `name`, or blesses it.
@@ -99,25 +93,12 @@ impl Goldens {
     /// # Errors
     ///
     /// [`GoldenError`] in every case but a golden that could be read and stays within `limits`.
-    pub fn check(
-        &self,
-        name: &str,
-        picture: &Picture,
-        limits: &Limits,
-    ) -> Result<Comparison, GoldenError> {
+    pub fn check(&self, name: &str, picture: &Picture, limits: &Limits) -> Result<Comparison, GoldenError> {
         if !is_plain(name) {
             return Err(GoldenError::BadName(name.to_owned()));
         }
-        let check = Check {
-            goldens: self,
-            name,
-            picture,
-        };
-        if self.bless {
-            Err(check.bless())
-        } else {
-            check.compare(limits)
-        }
+        let check = Check { goldens: self, name, picture };
+        if self.bless { Err(check.bless()) } else { check.compare(limits) }
     }
 }
 
@@ -128,9 +109,7 @@ impl Goldens {
 pub fn side_folder() -> PathBuf {
     let program = std::env::current_exe().unwrap_or_default();
     let deps = program.parent().filter(|folder| folder.ends_with("deps"));
-    let build = deps
-        .and_then(|deps| deps.ancestors().nth(2))
-        .or(program.parent());
+    let build = deps.and_then(|deps| deps.ancestors().nth(2)).or(program.parent());
     build.unwrap_or(Path::new(".")).join("goldens")
 }
 
@@ -153,21 +132,15 @@ impl Check<'_> {
             Ok(found) => found.len() as usize,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Err(self.missing()),
             Err(source) => {
-                return Err(self.unusable(CompareError::Read {
-                    path: golden,
-                    source,
-                }));
+                return Err(self.unusable(CompareError::Read { path: golden, source }));
             }
         };
         if bytes > MAX_GOLDEN_BYTES {
-            return Err(GoldenError::TooLarge {
-                name: self.name.to_owned(),
-                bytes,
-            });
+            return Err(GoldenError::TooLarge { name: self.name.to_owned(), bytes });
         }
         let reference = load(&golden).map_err(|error| self.unusable(error))?;
-        let comparison = compare(&reference, self.picture, &CompareDesc::default())
-            .map_err(|error| self.unusable(error))?;
+        let comparison =
+            compare(&reference, self.picture, &CompareDesc::default()).map_err(|error| self.unusable(error))?;
         match limits.check(&comparison) {
             Ok(()) => Ok(comparison),
             Err(excess) => Err(self.differs(&comparison, excess)),
@@ -178,10 +151,7 @@ impl Check<'_> {
         let path = self.golden_path();
         let png = match self.picture.to_png() {
             Ok(png) if png.len() > MAX_GOLDEN_BYTES => {
-                return GoldenError::TooLarge {
-                    name: self.name.to_owned(),
-                    bytes: png.len(),
-                };
+                return GoldenError::TooLarge { name: self.name.to_owned(), bytes: png.len() };
             }
             Ok(png) => png,
             Err(source) => return self.unusable(CompareError::Write { path, source }),
@@ -189,22 +159,14 @@ impl Check<'_> {
         let written = std::fs::create_dir_all(&self.goldens.folder)
             .and_then(|()| whole_file::write(&path, |out| out.write_all(&png)));
         match written {
-            Ok(()) => GoldenError::Blessed {
-                name: self.name.to_owned(),
-            },
-            Err(error) => self.unusable(CompareError::Write {
-                path,
-                source: error.into(),
-            }),
+            Ok(()) => GoldenError::Blessed { name: self.name.to_owned() },
+            Err(error) => self.unusable(CompareError::Write { path, source: error.into() }),
         }
     }
 
     fn missing(&self) -> GoldenError {
         match self.write_aside("actual", self.picture) {
-            Ok(actual) => GoldenError::Missing {
-                name: self.name.to_owned(),
-                actual,
-            },
+            Ok(actual) => GoldenError::Missing { name: self.name.to_owned(), actual },
             Err(error) => self.unusable(error),
         }
     }
@@ -214,12 +176,7 @@ impl Check<'_> {
             .write_aside("actual", self.picture)
             .and_then(|actual| Ok((actual, self.write_aside("diff", &comparison.picture())?)));
         match sides {
-            Ok((actual, diff)) => GoldenError::Differs {
-                name: self.name.to_owned(),
-                excess,
-                actual,
-                diff,
-            },
+            Ok((actual, diff)) => GoldenError::Differs { name: self.name.to_owned(), excess, actual, diff },
             Err(error) => self.unusable(error),
         }
     }
@@ -227,23 +184,13 @@ impl Check<'_> {
     /// The error for a golden that cannot be judged; what was drawn is kept if it can be.
     fn unusable(&self, source: CompareError) -> GoldenError {
         let _kept_if_possible = self.write_aside("actual", self.picture);
-        GoldenError::Unusable {
-            name: self.name.to_owned(),
-            source,
-        }
+        GoldenError::Unusable { name: self.name.to_owned(), source }
     }
 
     fn write_aside(&self, what: &str, picture: &Picture) -> Result<PathBuf, CompareError> {
-        let path = self
-            .goldens
-            .side_folder
-            .join(format!("{}.{what}.png", self.name));
-        std::fs::create_dir_all(&self.goldens.side_folder).map_err(|error| {
-            CompareError::Write {
-                path: self.goldens.side_folder.clone(),
-                source: error.into(),
-            }
-        })?;
+        let path = self.goldens.side_folder.join(format!("{}.{what}.png", self.name));
+        std::fs::create_dir_all(&self.goldens.side_folder)
+            .map_err(|error| CompareError::Write { path: self.goldens.side_folder.clone(), source: error.into() })?;
         picture.write(&path)?;
         Ok(path)
     }

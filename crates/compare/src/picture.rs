@@ -48,9 +48,7 @@ pub enum CompareError {
         b: Size,
     },
     /// The number of bytes is not four per pixel, or a side is zero.
-    #[error(
-        "a picture of {size} does not have {bytes} bytes; 4 per pixel and at least one pixel are expected"
-    )]
+    #[error("a picture of {size} does not have {bytes} bytes; 4 per pixel and at least one pixel are expected")]
     WrongByteCount {
         /// Size that was asked for.
         size: Size,
@@ -107,10 +105,7 @@ impl Picture {
     pub fn new(width: u32, height: u32, rgba: Vec<u8>) -> Result<Self, CompareError> {
         let size = Size { width, height };
         if rgba.is_empty() || size.pixels().checked_mul(4) != Some(rgba.len() as u64) {
-            return Err(CompareError::WrongByteCount {
-                size,
-                bytes: rgba.len(),
-            });
+            return Err(CompareError::WrongByteCount { size, bytes: rgba.len() });
         }
         Ok(Self { size, rgba })
     }
@@ -146,17 +141,13 @@ impl Picture {
     pub fn write(&self, path: &Path) -> Result<(), CompareError> {
         let png = self.to_png();
         let written = png.and_then(|png| whole_file::write(path, |out| Ok(out.write_all(&png)?)));
-        written.map_err(|source| CompareError::Write {
-            path: path.to_owned(),
-            source,
-        })
+        written.map_err(|source| CompareError::Write { path: path.to_owned(), source })
     }
 
     /// The bytes of the picture as a PNG file, as small as the encoder makes them.
     pub(crate) fn to_png(&self) -> Result<Vec<u8>, ImageError> {
         let mut png = Vec::new();
-        let encoder =
-            PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
+        let encoder = PngEncoder::new_with_quality(&mut png, CompressionType::Best, FilterType::Adaptive);
         let Size { width, height } = self.size;
         if self.is_opaque() {
             let rgb: Vec<u8> = self.pixels().flat_map(|[r, g, b, _]| [r, g, b]).collect();
@@ -174,20 +165,14 @@ impl Picture {
 ///
 /// [`CompareError::Read`] or [`CompareError::Decode`] naming the file.
 pub fn load(path: &Path) -> Result<Picture, CompareError> {
-    let read_error = |source| CompareError::Read {
-        path: path.to_owned(),
-        source,
-    };
+    let read_error = |source| CompareError::Read { path: path.to_owned(), source };
     let file = File::open(path).map_err(read_error)?;
     if file.metadata().map_err(read_error)?.is_dir() {
         return Err(read_error(io::Error::from(io::ErrorKind::IsADirectory)));
     }
     let decoded = ImageReader::with_format(BufReader::new(file), ImageFormat::Png)
         .decode()
-        .map_err(|source| CompareError::Decode {
-            path: path.to_owned(),
-            source,
-        })?
+        .map_err(|source| CompareError::Decode { path: path.to_owned(), source })?
         .into_rgba8();
     Picture::new(decoded.width(), decoded.height(), decoded.into_raw())
 }
@@ -215,29 +200,13 @@ mod tests {
     fn errors_name_the_file() {
         let folder = tempfile::tempdir().unwrap();
         let missing = folder.path().join("missing.png");
-        assert!(
-            load(&missing)
-                .unwrap_err()
-                .to_string()
-                .contains("missing.png")
-        );
+        assert!(load(&missing).unwrap_err().to_string().contains("missing.png"));
         let text = folder.path().join("text.png");
         std::fs::write(&text, "not a picture").unwrap();
-        assert!(
-            load(&text)
-                .unwrap_err()
-                .to_string()
-                .contains("text.png: not a readable PNG")
-        );
+        assert!(load(&text).unwrap_err().to_string().contains("text.png: not a readable PNG"));
         assert!(load(folder.path()).is_err());
         let nowhere = folder.path().join("no/where.png");
-        assert!(
-            gradient(|_| 255)
-                .write(&nowhere)
-                .unwrap_err()
-                .to_string()
-                .contains("where.png")
-        );
+        assert!(gradient(|_| 255).write(&nowhere).unwrap_err().to_string().contains("where.png"));
     }
 
     #[test]

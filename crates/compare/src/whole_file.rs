@@ -13,10 +13,7 @@ use std::path::{Path, PathBuf};
 /// # Errors
 ///
 /// Whatever `write` or the file system reports; `path` is then as it was before.
-pub fn write<E: From<io::Error>>(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
-) -> Result<(), E> {
+pub fn write<E: From<io::Error>>(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<(), E>) -> Result<(), E> {
     match destination(path)? {
         Destination::Special => into(File::options().write(true).open(path)?, write).map(drop),
         Destination::Regular(path) => replace(&path, write),
@@ -35,17 +32,12 @@ fn destination(path: &Path) -> io::Result<Destination> {
         Ok(found) if found.is_dir() => Err(io::Error::from(io::ErrorKind::IsADirectory)),
         Ok(found) if found.is_file() => path.canonicalize().map(Destination::Regular),
         Ok(_) => Ok(Destination::Special),
-        Err(error) if error.kind() == io::ErrorKind::NotFound => {
-            Ok(Destination::Regular(path.to_owned()))
-        }
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Destination::Regular(path.to_owned())),
         Err(error) => Err(error),
     }
 }
 
-fn replace<E: From<io::Error>>(
-    path: &Path,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
-) -> Result<(), E> {
+fn replace<E: From<io::Error>>(path: &Path, write: impl FnOnce(&mut dyn Write) -> Result<(), E>) -> Result<(), E> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
@@ -65,10 +57,7 @@ fn builder() -> tempfile::Builder<'static, 'static> {
     builder
 }
 
-fn into<E: From<io::Error>>(
-    file: File,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), E>,
-) -> Result<(), E> {
+fn into<E: From<io::Error>>(file: File, write: impl FnOnce(&mut dyn Write) -> Result<(), E>) -> Result<(), E> {
     let mut buffered = BufWriter::with_capacity(1 << 16, file);
     write(&mut buffered)?;
     Ok(buffered.flush()?)
@@ -108,10 +97,7 @@ mod tests {
     #[test]
     fn a_folder_is_refused() {
         let folder = tempfile::tempdir().unwrap();
-        assert_eq!(
-            put(folder.path(), b"x").unwrap_err().kind(),
-            io::ErrorKind::IsADirectory
-        );
+        assert_eq!(put(folder.path(), b"x").unwrap_err().kind(), io::ErrorKind::IsADirectory);
         assert!(put(&folder.path().join("missing/a"), b"x").is_err());
     }
 

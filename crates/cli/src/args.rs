@@ -1,0 +1,61 @@
+//! The command line as a whole; each command's own options are in its file under `commands`.
+
+use crate::commands::{compare, sample};
+use clap::{ArgAction, Args, Parser, Subcommand};
+
+/// Smooth subdivision surfaces through hull and domain stages of Vulkan, from the command line.
+///
+/// Reads a control cage (OBJ, glTF), puts its Catmull-Clark surface through tessellation shaders and gives you a
+/// picture, triangles, points, or the proof that the surface has no cracks. No window is needed.
+#[derive(Parser, Debug)]
+#[command(name = "osculate", version, after_help = EXAMPLES, subcommand_value_name = "COMMAND")]
+pub(crate) struct Cli {
+    /// Options of every command.
+    #[command(flatten)]
+    pub(crate) global: GlobalArgs,
+
+    /// List the Vulkan devices of this machine: index, name, kind, driver.
+    #[arg(long)]
+    pub(crate) list_devices: bool,
+
+    /// What to do.
+    #[command(subcommand)]
+    pub(crate) command: Option<Command>,
+}
+
+/// Options of every command.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Common options")]
+pub(crate) struct GlobalArgs {
+    /// Device to use: an index from --list-devices or a part of a name. Default: the best one.
+    #[arg(long, global = true, value_name = "N|NAME", env = "OSCULATE_DEVICE")]
+    pub(crate) device: Option<String>,
+
+    /// Switch on Vulkan's validation layers, synchronization included; any message is an error.
+    #[arg(long, global = true)]
+    pub(crate) validation: bool,
+
+    /// Print errors only: no warnings, no progress.
+    #[arg(short, long, global = true)]
+    pub(crate) quiet: bool,
+
+    /// Say more on stderr; twice for details.
+    #[arg(short, long, global = true, action = ArgAction::Count, conflicts_with = "quiet")]
+    pub(crate) verbose: u8,
+}
+
+/// What to do.
+#[derive(Subcommand, Debug)]
+pub(crate) enum Command {
+    /// Print points of the surface with derivatives and normals as CSV.
+    Sample(sample::SampleArgs),
+    /// Compare two pictures as a person would see them.
+    Compare(compare::CompareArgs),
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  osculate sample cube.obj --grid 4 --scheme stam --evaluator reference
+  osculate compare before.png after.png -o diff.png
+
+Exit codes: 0 done, 1 a check or comparison failed, 2 usage, 3 bad input file, 4 no usable device.";

@@ -1,0 +1,135 @@
+//! `sample`: points of the surface as CSV.
+
+use crate::args::GlobalArgs;
+use crate::failure::{Failure, Verdict, WriteError};
+use crate::input::{Input, InputArgs};
+use crate::options::SchemeName;
+use crate::progress::Progress;
+use crate::samples::exact::{self, Exact};
+use crate::samples::{self, Found, Place, Places};
+use crate::stdout;
+use clap::{Args, ValueEnum};
+use osculate_compare::whole_file;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// Evaluate points of the surface and print them as CSV: place on the cage, position, derivatives, unit normal.
+///
+/// A quad has sub = -1 and (s,t) = (0,0), (1,0), (1,1), (0,1) at its vertices. Any other face consists of one sub-face per
+/// vertex, sub = 0, 1, ..: (0,0) is the vertex, (1,0) the middle of the edge to the next vertex, (1,1) the centre of the
+/// face, (0,1) the middle of the edge to the previous vertex. Faces count from 0 in file order. ev = 1 marks corners on an
+/// irregular vertex, where only position and normal are those of the limit surface.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct SampleArgs {
+    #[command(flatten)]
+    input: InputArgs,
+
+    /// How the surface is put together. Default: stam, the exact limit surface, with the reference evaluator.
+    #[arg(long, alias = "schemes", value_name = "SCHEME")]
+    scheme: Option<SchemeName>,
+
+    /// Sample each face or sub-face at (N + 1) x (N + 1) points.
+    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..))]
+    grid: u32,
+
+    /// Sample at the places in this CSV file instead: face,sub,s,t in each line.
+    #[arg(long, value_name = "POINTS.csv", conflicts_with = "grid")]
+    at: Option<PathBuf>,
+
+    /// Who evaluates.
+    #[arg(long, value_name = "EVALUATOR", default_value = "reference")]
+    evaluator: EvaluatorArg,
+
+    /// Where to write the CSV. Default: stdout.
+    #[arg(short, long, value_name = "FILE.csv")]
+    output: Option<PathBuf>,
+}
+
+/// Names of the evaluators.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum EvaluatorArg {
+    /// The exact limit surface in double precision, without a device.
+    Reference,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  osculate sample cube.obj --grid 8 -o cube.csv
+  osculate sample cube.obj --scheme stam --evaluator reference | head
+  osculate sample cube.obj --at points.csv -o found.csv";
+
+/// What is sampled, by whom, where to.
+pub(crate) struct Job {
+    input: InputArgs,
+    places: PlacesFrom,
+    output: Option<PathBuf>,
+}
+
+/// Where the places come from.
+enum PlacesFrom {
+    /// A grid of so many steps on every face.
+    Grid(u32),
+    /// A CSV file.
+    List(PathBuf),
+}
+
+impl SampleArgs {
+    /// Checks that evaluator and scheme go together.
+    pub(crate) fn validate(self) -> Result<Job, Failure> {
+        match (self.evaluator, self.scheme) {
+            (EvaluatorArg::Reference, None | Some(SchemeName::Stam)) => {}
+            (EvaluatorArg::Reference, Some(scheme)) => return Err(reference_is_exact(scheme)),
+        }
+        let places = self.at.map_or(PlacesFrom::Grid(self.grid), PlacesFrom::List);
+        Ok(Job { input: self.input, places, output: self.output })
+    }
+}
+
+fn reference_is_exact(scheme: SchemeName) -> Failure {
+    Failure::usage(format_args!(
+        "--evaluator reference gives the exact limit surface, which is the scheme stam, not {scheme}"
+    ))
+    .with_hint("ask for --scheme stam, or leave --scheme away")
+}
+
+/// Samples and writes.
+pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
+    let input = job.input.read()?;
+    let places = job.places.read(&input)?;
+    let mesh = exact::mesh(&input.cage);
+    let exact = Exact::new(&mesh, input.boundary)?;
+    write_rows(job.output.as_deref(), places, &|places| exact.evaluate(places), global)?;
+    Ok(Verdict::Pass)
+}
+
+impl PlacesFrom {
+    fn read(&self, input: &Input) -> Result<Places, Failure> {
+        let drawn = input.drawn_faces();
+        match self {
+            Self::Grid(n) => Ok(samples::grid(&input.cage, *n, &drawn)),
+            Self::List(path) => samples::read(path, &input.cage, &drawn),
+        }
+    }
+}
+
+/// Evaluates a batch of places.
+type Evaluate<'a> = &'a dyn Fn(&[Place]) -> Result<Vec<Found>, Failure>;
+
+fn write_rows(path: Option<&Path>, places: Places, evaluate: Evaluate<'_>, global: &GlobalArgs) -> Result<(), Failure> {
+    let mut progress = Progress::new(global.quiet, places.len, "sampling");
+    let write = |out: &mut dyn Write| -> Result<(), WriteError> {
+        writeln!(out, "{}", samples::HEADER)?;
+        for batch in places.batches() {
+            for (place, found) in batch.iter().zip(evaluate(&batch)?) {
+                samples::write_row(out, place, &found)?;
+            }
+            progress.advance(batch.len() as u64);
+        }
+        Ok(())
+    };
+    match path {
+        Some(path) => whole_file::write(path, write).map_err(|error| error.to(path)),
+        None => stdout::print(write),
+    }
+}

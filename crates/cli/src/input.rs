@@ -1,0 +1,76 @@
+//! Reading a cage and deciding which of its faces are the surface.
+
+use crate::failure::Failure;
+use clap::{Args, ValueEnum};
+use osculate_cage::{BoundaryRule, Cage};
+use std::path::{Path, PathBuf};
+
+/// The cage and what happens at its boundary.
+#[derive(Args, Debug)]
+pub(crate) struct InputArgs {
+    /// The control cage: .obj, .gltf or .glb.
+    pub(crate) file: PathBuf,
+
+    /// What happens where the cage ends. Default: what the file's tags say, else edge-and-corner.
+    #[arg(long, value_name = "RULE")]
+    boundary: Option<BoundaryArg>,
+}
+
+/// Names of the boundary rules.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum BoundaryArg {
+    /// The boundary is a smooth curve; vertices with a single face are corners that stay fixed.
+    EdgeAndCorner,
+    /// The boundary is a smooth curve throughout.
+    EdgeOnly,
+    /// Faces that touch the boundary are dropped.
+    None,
+}
+
+impl From<BoundaryArg> for BoundaryRule {
+    fn from(arg: BoundaryArg) -> Self {
+        match arg {
+            BoundaryArg::EdgeAndCorner => Self::EdgeAndCorner,
+            BoundaryArg::EdgeOnly => Self::EdgeOnly,
+            BoundaryArg::None => Self::None,
+        }
+    }
+}
+
+/// A cage with the boundary rule that applies to it.
+pub(crate) struct Input {
+    /// The cage.
+    pub(crate) cage: Cage,
+    /// The rule: the option, else the file's tag, else the default.
+    pub(crate) boundary: BoundaryRule,
+}
+
+impl InputArgs {
+    /// Reads the cage, passing its warnings on.
+    pub(crate) fn read(&self) -> Result<Input, Failure> {
+        let cage = read_cage(&self.file)?;
+        let boundary = self.boundary.map(BoundaryRule::from).or(cage.boundary_rule()).unwrap_or_default();
+        Ok(Input { cage, boundary })
+    }
+}
+
+/// Reads a cage, passing its warnings on.
+pub(crate) fn read_cage(file: &Path) -> Result<Cage, Failure> {
+    let cage = Cage::read(file).map_err(Failure::input)?;
+    for warning in cage.warnings() {
+        tracing::warn!("{}: {warning}", file.display());
+    }
+    Ok(cage)
+}
+
+impl Input {
+    /// For each face whether it is part of the surface: not a hole, and under the rule `none` not at the boundary.
+    pub(crate) fn drawn_faces(&self) -> Vec<bool> {
+        let cage = &self.cage;
+        let at_boundary = |face: usize| cage.face(face).iter().any(|&v| cage.topology().is_boundary_vertex(v));
+        let dropped = |face: usize| self.boundary == BoundaryRule::None && at_boundary(face);
+        let mut drawn: Vec<bool> = (0..cage.face_count()).map(|face| !dropped(face)).collect();
+        cage.tags().holes.iter().for_each(|&hole| drawn[hole as usize] = false);
+        drawn
+    }
+}

@@ -1,0 +1,108 @@
+//! `osculate sample` with the reference evaluator; it needs no device.
+
+mod support;
+
+use std::fs;
+use support::{CAGE, osculate};
+use tempfile::{TempDir, tempdir};
+
+const HEADER: &str = "face,sub,s,t,px,py,pz,dux,duy,duz,dvx,dvy,dvz,nx,ny,nz,ev";
+
+fn folder() -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("cage.obj"), CAGE).unwrap();
+    folder
+}
+
+fn rows(csv: &str) -> Vec<Vec<f64>> {
+    let mut lines = csv.lines();
+    assert_eq!(lines.next(), Some(HEADER));
+    lines.map(|line| line.split(',').map(|cell| cell.parse().unwrap()).collect()).collect()
+}
+
+const REFERENCE: [&str; 4] = ["sample", "cage.obj", "--evaluator", "reference"];
+
+#[test]
+fn rows_come_in_the_order_of_the_contract() {
+    let folder = folder();
+    let ran = osculate(folder.path(), &[&REFERENCE[..], &["--grid", "2", "--scheme", "stam"]].concat()).exits(0);
+    let rows = rows(&ran.stdout);
+    assert_eq!(rows.len(), 9 * (1 + 3 + 3));
+    assert_eq!(rows[1][..4], [0.0, -1.0, 0.5, 0.0]);
+    assert_eq!(rows[3][..4], [0.0, -1.0, 0.0, 0.5]);
+    assert_eq!(rows[9][..4], [1.0, 0.0, 0.0, 0.0]);
+    assert_eq!(rows[62][..4], [2.0, 2.0, 1.0, 1.0]);
+    // A boundary vertex with one face is a fixed corner by default.
+    assert_eq!(rows[0][4..7], [0.0, 0.0, 0.0]);
+    for row in &rows {
+        let length = row[13..16].iter().map(|x| x * x).sum::<f64>().sqrt();
+        assert!((length - 1.0).abs() < 1e-12, "{row:?}");
+    }
+}
+
+#[test]
+fn a_file_gets_what_stdout_would() {
+    let folder = folder();
+    let printed = osculate(folder.path(), &REFERENCE).exits(0).stdout;
+    let ran = osculate(folder.path(), &[&REFERENCE[..], &["-o", "out.csv"]].concat()).exits(0);
+    assert_eq!(ran.stdout, "");
+    assert_eq!(fs::read_to_string(folder.path().join("out.csv")).unwrap(), printed);
+}
+
+#[test]
+fn the_output_can_be_the_list_of_places() {
+    let folder = folder();
+    let arguments = [&REFERENCE[..], &["-o", "out.csv", "--grid", "3"]].concat();
+    osculate(folder.path(), &arguments).exits(0);
+    let again = osculate(folder.path(), &[&REFERENCE[..], &["--at", "out.csv"]].concat()).exits(0);
+    assert_eq!(again.stdout, fs::read_to_string(folder.path().join("out.csv")).unwrap());
+}
+
+#[test]
+fn lists_with_wrong_places_exit_with_3() {
+    let folder = folder();
+    fs::write(folder.path().join("points.csv"), "0,-1,0.5,0.5\n9,-1,0,0\n").unwrap();
+    let run = |more: &[&str]| osculate(folder.path(), &[&REFERENCE[..], more].concat());
+    run(&["--at", "points.csv"]).fails(3, "points.csv:2: there is no face 9");
+    run(&["--at", "missing.csv"]).fails(3, "missing.csv");
+    run(&["--at", "points.csv", "--grid", "3"]).fails(2, "--grid");
+}
+
+#[test]
+fn a_failed_run_leaves_no_file() {
+    let folder = folder();
+    fs::write(folder.path().join("points.csv"), "9,-1,0,0\n").unwrap();
+    osculate(folder.path(), &[&REFERENCE[..], &["--at", "points.csv", "-o", "out.csv"]].concat()).exits(3);
+    let mut names: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
+    names.sort();
+    assert_eq!(names, ["cage.obj", "points.csv"]);
+    osculate(folder.path(), &[&REFERENCE[..], &["-o", "no/out.csv"]].concat()).fails(2, "no/out.csv");
+}
+
+#[test]
+fn the_boundary_rule_is_the_option_else_the_files_tag() {
+    let folder = folder();
+    let tagged = format!("{CAGE}t interpolateboundary 1/0/0 1\n");
+    fs::write(folder.path().join("tagged.obj"), tagged).unwrap();
+    let sample = |file: &str, more: &[&str]| {
+        let arguments = [&["sample", file, "--evaluator", "reference", "--grid", "1"], more].concat();
+        osculate(folder.path(), &arguments).exits(0).stdout
+    };
+    let (sharp, smooth) = (sample("cage.obj", &[]), sample("cage.obj", &["--boundary", "edge-only"]));
+    assert_ne!(sharp, smooth);
+    assert_eq!(sample("cage.obj", &["--boundary", "edge-and-corner"]), sharp);
+    assert_eq!(sample("tagged.obj", &[]), smooth);
+    assert_eq!(sample("tagged.obj", &["--boundary", "edge-and-corner"]), sharp);
+    // Every face of this cage touches the boundary.
+    assert_eq!(rows(&sample("cage.obj", &["--boundary", "none"])).len(), 0);
+}
+
+#[test]
+fn the_reference_knows_the_exact_scheme_only() {
+    let folder = folder();
+    let run = |scheme: &str| osculate(folder.path(), &[&REFERENCE[..], &["--scheme", scheme]].concat());
+    run("gregory2").fails(2, "exact limit surface");
+    run("nurbs").fails(2, "the schemes are");
+    osculate(folder.path(), &[&REFERENCE[..], &["--grid", "0"]].concat()).fails(2, "--grid");
+    osculate(folder.path(), &[&REFERENCE[..], &["--boundary", "sharp"]].concat()).fails(2, "--boundary");
+}
