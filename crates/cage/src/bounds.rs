@@ -30,7 +30,9 @@ impl Bounds {
     /// Half the length of the diagonal: the radius of the sphere around the box.
     #[must_use]
     pub fn half_diagonal(&self) -> f64 {
-        (self.max * 0.5 - self.min * 0.5).length()
+        let half = self.max * 0.5 - self.min * 0.5;
+        // Squares of very large or very small sides would overflow or vanish.
+        half.x.hypot(half.y).hypot(half.z)
     }
 }
 
@@ -44,7 +46,16 @@ mod tests {
         assert_eq!(b.min, DVec3::new(-3.0, -2.0, 0.0));
         assert_eq!(b.max, DVec3::new(1.0, 2.0, 3.0));
         assert_eq!(b.center(), DVec3::new(-1.0, 0.0, 1.5));
-        assert_eq!(b.half_diagonal(), (4.0 + 4.0 + 2.25_f64).sqrt());
+        assert!((b.half_diagonal() - 10.25_f64.sqrt()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn extreme_sizes() {
+        for scale in [1e-300, 1e300] {
+            let b = Bounds::of(&[DVec3::ZERO, DVec3::new(6.0, 8.0, 0.0) * scale]);
+            assert!((b.half_diagonal() / scale - 5.0).abs() < 1e-12, "{scale}");
+        }
+        assert!(Bounds::of(&[DVec3::MIN, DVec3::MAX]).center().is_finite());
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::{Listed, ObjError, TagError, TopologyError};
+use crate::{GltfError, Listed, ObjError, TagError, TopologyError};
 
 /// Why a [`CageDesc`](crate::CageDesc) is not a cage. Indices count from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -57,6 +57,16 @@ pub enum CageError {
     },
 }
 
+impl CageError {
+    /// A reminder of how elements are numbered, for messages that name some.
+    fn counting(&self) -> &'static str {
+        match self {
+            Self::NoFaces | Self::TooLarge { .. } | Self::UvCount { .. } => "",
+            _ => " (elements count from 0)",
+        }
+    }
+}
+
 /// Why a file could not be read as a cage. Messages are one line that starts with the file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -85,8 +95,16 @@ pub enum ReadError {
         /// What is wrong with it.
         error: ObjError,
     },
+    /// A glTF file is malformed.
+    #[error("{file}: {error}")]
+    Gltf {
+        /// The name of the file.
+        file: String,
+        /// What is wrong with it.
+        error: GltfError,
+    },
     /// The file is well formed but what it holds is not a cage.
-    #[error("{file}{}: {error} (elements count from 0)", .line.map(|line| format!(":{line}")).unwrap_or_default())]
+    #[error("{file}{}: {error}{}", .line.map(|line| format!(":{line}")).unwrap_or_default(), .error.counting())]
     Refused {
         /// The name of the file.
         file: String,

@@ -4,22 +4,31 @@
 //! an error that names the file, the line or the elements at fault; nothing after this crate has to check again.
 //!
 //! Vertices, faces and half-edges are numbered from 0. The index of a face is the index of its `f` line in the file.
+#![cfg_attr(test, expect(clippy::single_range_in_vec_init, reason = "face sets are lists of ranges"))]
 
 mod bounds;
 mod cage;
 mod error;
+mod face_sets;
+mod gltf;
+mod inspect;
 mod listed;
 mod obj;
+#[cfg(test)]
+mod random;
 mod read;
 mod tags;
 mod topology;
 mod warning;
+mod weld;
 
 pub use bounds::Bounds;
 pub use cage::{Cage, CageDesc, FaceSet, FaceSetKind, FaceVarying};
 pub use error::{CageError, ReadError};
+pub use gltf::{AccessorError, GltfError, read_gltf};
+pub use inspect::{Inspection, Problem, inspect};
 pub use listed::Listed;
-pub use obj::{ObjError, read_obj};
+pub use obj::{ObjError, read_obj, write_obj};
 pub use tags::{BoundaryRule, Corner, Crease, CreaseMethod, TagError, Tags};
 pub use topology::{EdgeFaces, FaceCorner, Fans, Ring, Topology, TopologyError};
 pub use warning::Warning;

@@ -41,7 +41,7 @@ impl<T> Listed<T> {
 
     /// The number of elements with the noun for it: `1 edge`, `7 edges`.
     pub(crate) fn count(&self, noun: &str) -> String {
-        count(self.total, noun)
+        plural(self.total, noun)
     }
 }
 
@@ -73,12 +73,16 @@ impl<T: fmt::Display> fmt::Display for Listed<T> {
 }
 
 /// `1 vertex`, `2 vertices`, `3 faces`: a count with its noun.
-pub(crate) fn count(n: usize, noun: &str) -> String {
+pub(crate) fn plural(n: usize, noun: &str) -> String {
     match n {
         1 => format!("1 {noun}"),
         _ => match noun.strip_suffix("vertex") {
             Some(kind) => format!("{n} {kind}vertices"),
-            None => format!("{n} {noun}s"),
+            // "sets of targets", but "edges".
+            None => match noun.split_once(" of ") {
+                Some((noun, of)) => format!("{n} {noun}s of {of}"),
+                None => format!("{n} {noun}s"),
+            },
         },
     }
 }
@@ -104,8 +108,8 @@ mod tests {
 
     #[test]
     fn counts_agree_with_their_nouns() {
-        assert_eq!(count(1, "vertex"), "1 vertex");
-        assert_eq!(count(0, "edge"), "0 edges");
-        assert_eq!(count(2, "unused vertex"), "2 unused vertices");
+        assert_eq!(plural(1, "vertex"), "1 vertex");
+        assert_eq!(plural(0, "edge"), "0 edges");
+        assert_eq!(plural(2, "unused vertex"), "2 unused vertices");
     }
 }

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use crate::{Cage, ReadError, read_obj};
+use crate::{Cage, ReadError, read_gltf, read_obj};
 
 impl Cage {
-    /// Reads a cage from a file; the kind is told by the end of its name, in any case: `.obj`.
+    /// Reads a cage from a file; the kind is told by the end of its name, in any case: `.obj`, `.gltf`, `.glb`.
     ///
     /// # Errors
     /// A file that cannot be read, is malformed or does not hold a cage. The message starts with the file and, where there is one, the line.
@@ -14,6 +14,7 @@ impl Cage {
         let bytes = || std::fs::read(path).map_err(|error| ReadError::Io { file: path.into(), error });
         match extension.as_deref() {
             Some("obj") => read_obj(&bytes()?, &path.display().to_string()),
+            Some("gltf" | "glb") => read_gltf(&bytes()?, &path.display().to_string(), path.parent()),
             _ => Err(ReadError::UnknownFormat { file: path.into() }),
         }
     }

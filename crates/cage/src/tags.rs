@@ -1,7 +1,7 @@
 //! The subdivision tags of a cage: what OpenSubdiv's `t` lines say about creases, corners, holes and boundaries.
 
 use crate::Topology;
-use crate::listed::count;
+use crate::listed::plural;
 
 /// How the surface meets the boundary of the cage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -155,10 +155,10 @@ impl Tags {
     pub(crate) fn not_evaluated(&self) -> Vec<String> {
         let mut found = Vec::new();
         if !self.creases.is_empty() {
-            found.push(count(self.creases.len(), "crease"));
+            found.push(plural(self.creases.len(), "crease"));
         }
         if !self.corners.is_empty() {
-            found.push(count(self.corners.len(), "corner"));
+            found.push(plural(self.corners.len(), "corner"));
         }
         if self.crease_method == CreaseMethod::Chaikin {
             found.push("creasemethod chaikin".into());

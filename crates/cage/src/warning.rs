@@ -1,7 +1,7 @@
 //! What was odd about a file but did not keep it from being read.
 
 use crate::Listed;
-use crate::listed::count;
+use crate::listed::plural;
 
 /// Something the reader ignored, dropped or made up; the cage is valid all the same.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -19,7 +19,7 @@ pub enum Warning {
     #[error("tags not evaluated yet are ignored: {}", .0.join(", "))]
     TagsNotEvaluated(Vec<String>),
     /// Statements of an OBJ file that mean nothing to a cage.
-    #[error("{} ignored: {name} ({reason}), first in line {line}", count(*.statements, "statement"))]
+    #[error("{} ignored: {name} ({reason}), first in line {line}", plural(*.statements, "statement"))]
     Statement {
         /// The first word of the statement.
         name: String,
@@ -31,10 +31,24 @@ pub enum Warning {
         line: u32,
     },
     /// Faces with corners without uv in a file where others have it; these corners got (0, 0).
-    #[error("{} without uv, set to (0, 0)", count(*.0, "face"))]
+    #[error("{} without uv, set to (0, 0)", plural(*.0, "face"))]
     MissingUv(usize),
+    /// Parts of a glTF scene that mean nothing to a cage yet.
+    #[error("{} ignored", plural(*.count, .what))]
+    NotRead {
+        /// What is ignored.
+        what: &'static str,
+        /// How many there are.
+        count: usize,
+    },
+    /// Triangles of a glTF scene with two corners at one place were dropped.
+    #[error("{} with two corners at one place dropped", plural(*.0, "triangle"))]
+    DegenerateTriangles(usize),
+    /// The nodes of a glTF scene touch in a way that is no manifold, so they were not welded to each other.
+    #[error("{} welded each by itself, because together they are not manifold", plural(*.0, "node"))]
+    WeldedByNode(usize),
 }
 
 fn with_corners(corners: usize) -> String {
-    if corners == 0 { String::new() } else { format!(" (and {} there)", count(corners, "corner tag")) }
+    if corners == 0 { String::new() } else { format!(" (and {} there)", plural(corners, "corner tag")) }
 }

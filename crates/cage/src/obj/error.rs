@@ -37,7 +37,7 @@ pub enum ObjError {
         count: usize,
     },
     /// A face with one or two corners.
-    #[error("a face with {}; faces have at least 3", crate::listed::count(*.0, "corner"))]
+    #[error("a face with {}; faces have at least 3", crate::listed::plural(*.0, "corner"))]
     TooFewCorners(usize),
     /// More elements than 32-bit indices can name.
     #[error("too many {0} for 32-bit indices; split the model")]

@@ -9,12 +9,13 @@ mod ignored;
 mod lines;
 mod numbers;
 mod reader;
-mod sets;
 mod tags;
 #[cfg(test)]
 mod tests;
+mod write;
 
 pub use error::ObjError;
+pub use write::write_obj;
 
 use crate::{Cage, CageError, ReadError, TagError};
 use reader::{Parsed, SourceLines};

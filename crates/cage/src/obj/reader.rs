@@ -6,9 +6,9 @@ use super::face::{Corner, Counts, corner};
 use super::ignored::{Ignored, reason};
 use super::lines::Lines;
 use super::numbers::{numbers, words};
-use super::sets::Sets;
 use super::{ObjError, tags};
-use crate::{CageDesc, FaceSetKind, FaceVarying, NONE, Tags, Warning};
+use crate::face_sets::FaceSets;
+use crate::{CageDesc, FaceSetKind, FaceVarying, NONE, Tags};
 
 /// What a text holds, and where.
 pub(super) struct Parsed {
@@ -45,7 +45,7 @@ struct Reader {
     /// One per face corner, [`NONE`] where there is none.
     uv_indices: Vec<u32>,
     tags: Tags,
-    sets: Sets,
+    sets: FaceSets,
     ignored: Ignored,
     lines: SourceLines,
 }
@@ -105,13 +105,13 @@ impl Reader {
         self.check_range("vertex", &self.face_vertices, self.positions.len())?;
         self.check_range("uv", &self.uv_indices, self.uv_values.len())?;
         let mut warnings = std::mem::take(&mut self.ignored).into_warnings();
-        let uv = self.uv(&mut warnings);
+        let uv = FaceVarying { values: self.uv_values, indices: self.uv_indices };
         let desc = CageDesc {
+            uv: uv.finish(&self.face_offsets, &mut warnings),
             positions: self.positions,
             face_sets: self.sets.finish(self.lines.faces.len() as u32),
             face_offsets: self.face_offsets,
             face_vertices: self.face_vertices,
-            uv,
             tags: self.tags,
             warnings,
         };
@@ -124,19 +124,6 @@ impl Reader {
         let face = self.face_offsets.partition_point(|&offset| offset as usize <= corner) - 1;
         let index = i64::from(indices[corner]) + 1;
         Err((self.lines.faces[face], ObjError::OutOfRange { what, index, count }))
-    }
-
-    fn uv(&mut self, warnings: &mut Vec<Warning>) -> Option<FaceVarying> {
-        let mut uv =
-            FaceVarying { values: std::mem::take(&mut self.uv_values), indices: std::mem::take(&mut self.uv_indices) };
-        if uv.indices.iter().all(|&i| i == NONE) {
-            return None;
-        }
-        let missing = uv.fill(NONE, &self.face_offsets);
-        if missing > 0 {
-            warnings.push(Warning::MissingUv(missing));
-        }
-        Some(uv)
     }
 }
 

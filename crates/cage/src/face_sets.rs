@@ -7,7 +7,7 @@ use crate::{FaceSet, FaceSetKind};
 
 /// Collects face sets while faces go by. Costs are linear in the text: a set is a list of ranges, and only statements add to it.
 #[derive(Default)]
-pub(super) struct Sets {
+pub(crate) struct FaceSets {
     sets: Vec<FaceSet>,
     by_name: HashMap<(FaceSetKind, String), usize>,
     active: HashMap<FaceSetKind, Active>,
@@ -18,20 +18,21 @@ struct Active {
     since: u32,
 }
 
-impl Sets {
+impl FaceSets {
     /// The faces from `face` on belong to the sets with these names; without a name, to none of this kind.
-    pub(super) fn switch(&mut self, kind: FaceSetKind, names: impl Iterator<Item = String>, face: u32) {
+    pub(crate) fn switch(&mut self, kind: FaceSetKind, names: impl Iterator<Item = String>, face: u32) {
         self.close(kind, face);
         let sets = names.map(|name| self.index(kind, name)).collect();
         self.active.insert(kind, Active { sets, since: face });
     }
 
-    /// All sets with faces, in order of their first mention, given the number of faces.
-    pub(super) fn finish(mut self, faces: u32) -> Vec<FaceSet> {
+    /// All sets with faces, by kind and first face, given the number of faces.
+    pub(crate) fn finish(mut self, faces: u32) -> Vec<FaceSet> {
         for kind in [FaceSetKind::Object, FaceSetKind::Group, FaceSetKind::Material] {
             self.close(kind, faces);
         }
         self.sets.retain(|set| !set.faces.is_empty());
+        self.sets.sort_by_key(|set| (set.kind, set.faces[0].start));
         self.sets
     }
 

@@ -17,23 +17,25 @@ pub struct FaceVarying {
 }
 
 impl FaceVarying {
-    /// Gives every corner without a value one that is made for them all: (0, 0). Returns the number of faces with such corners.
-    pub(crate) fn fill(&mut self, none: u32, face_offsets: &[u32]) -> usize {
-        let lacking = face_offsets
-            .windows(2)
-            .filter(|pair| self.indices[pair[0] as usize..pair[1] as usize].contains(&none))
-            .count();
+    /// Ends the reading of a file, in which corners without a value have the index [`NONE`]: they all get (0, 0), with a warning. No values at all are no data.
+    pub(crate) fn finish(mut self, face_offsets: &[u32], warnings: &mut Vec<Warning>) -> Option<Self> {
+        if self.indices.iter().all(|&i| i == NONE) {
+            return None;
+        }
+        let lacks = |pair: &&[u32]| self.indices[pair[0] as usize..pair[1] as usize].contains(&NONE);
+        let lacking = face_offsets.windows(2).filter(lacks).count();
         if lacking > 0 {
+            warnings.push(Warning::MissingUv(lacking));
             let made = self.values.len() as u32;
             self.values.push(DVec2::ZERO);
-            self.indices.iter_mut().filter(|i| **i == none).for_each(|i| *i = made);
+            self.indices.iter_mut().filter(|i| **i == NONE).for_each(|i| *i = made);
         }
-        lacking
+        Some(self)
     }
 }
 
 /// What a set of faces stands for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum FaceSetKind {
     /// An object (`o`) or the node of a scene.
     Object,
@@ -269,3 +271,6 @@ fn drop_unused_vertices(
     warnings.push(Warning::UnusedVertices { vertices: unused, corners: corners - tags.corners.len() });
     (kept.iter().map(|&v| positions[v as usize]).collect(), kept)
 }
+
+#[cfg(test)]
+mod tests;

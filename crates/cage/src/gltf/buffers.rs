@@ -1,0 +1,135 @@
+//! The bytes of a file's buffers: binary part, `data:` uri or file beside it.
+
+use std::collections::HashMap;
+use std::path::{Component, Path, PathBuf};
+use std::rc::Rc;
+
+use ::gltf::Gltf;
+use ::gltf::buffer::{Buffer, Source};
+
+use super::GltfError;
+use super::base64;
+
+/// All buffers of a file, at least as long as announced.
+pub(super) struct Buffers {
+    data: Vec<Rc<[u8]>>,
+}
+
+impl Buffers {
+    pub(super) fn load(gltf: &Gltf, folder: Option<&Path>) -> Result<Self, GltfError> {
+        let mut loader = Loader { blob: gltf.blob.as_deref(), folder, files: HashMap::new() };
+        let data = gltf.buffers().map(|buffer| loader.load(&buffer)).collect::<Result<_, _>>()?;
+        Ok(Self { data })
+    }
+
+    pub(super) fn get(&self, buffer: usize) -> &[u8] {
+        &self.data[buffer]
+    }
+}
+
+struct Loader<'a> {
+    blob: Option<&'a [u8]>,
+    folder: Option<&'a Path>,
+    /// Many buffers may name one file.
+    files: HashMap<PathBuf, Rc<[u8]>>,
+}
+
+impl Loader<'_> {
+    fn load(&mut self, buffer: &Buffer) -> Result<Rc<[u8]>, GltfError> {
+        let index = buffer.index();
+        let data = match buffer.source() {
+            // Only the first buffer can be the binary part.
+            Source::Bin => {
+                self.blob.take().filter(|_| index == 0).map(Rc::from).ok_or(GltfError::BufferMissing(index))?
+            }
+            Source::Uri(uri) => match uri.strip_prefix("data:") {
+                Some(data) => Rc::from(from_data_uri(index, data)?),
+                None => self.file(index, uri)?,
+            },
+        };
+        let announced = buffer.length();
+        if data.len() < announced {
+            return Err(GltfError::BufferShort { buffer: index, announced, found: data.len() });
+        }
+        Ok(data)
+    }
+
+    fn file(&mut self, buffer: usize, uri: &str) -> Result<Rc<[u8]>, GltfError> {
+        let refused = || GltfError::BufferUri { buffer, uri: cut(uri) };
+        let file = self.folder.and_then(|folder| inside(folder, uri)).ok_or_else(refused)?;
+        if let Some(data) = self.files.get(&file) {
+            return Ok(data.clone());
+        }
+        match std::fs::read(&file) {
+            Ok(data) => Ok(self.files.entry(file).or_insert(data.into()).clone()),
+            Err(error) => Err(GltfError::BufferFile { buffer, file, error }),
+        }
+    }
+}
+
+fn from_data_uri(buffer: usize, data: &str) -> Result<Vec<u8>, GltfError> {
+    let refused = || GltfError::BufferUri { buffer, uri: cut(&format!("data:{data}")) };
+    let (kind, text) = data.split_once(',').ok_or_else(refused)?;
+    if !kind.ends_with(";base64") {
+        return Err(refused());
+    }
+    base64::decode(text.as_bytes()).ok_or(GltfError::BufferBase64(buffer))
+}
+
+/// The path that a relative uri names; `None` if it has a scheme or leaves the folder.
+fn inside(folder: &Path, uri: &str) -> Option<PathBuf> {
+    let path = PathBuf::from(percent_decoded(uri)?);
+    let stays = path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
+    (stays && !uri.contains(':') && path.file_name().is_some()).then(|| folder.join(path))
+}
+
+fn percent_decoded(uri: &str) -> Option<String> {
+    let mut bytes = Vec::with_capacity(uri.len());
+    let mut rest = uri.as_bytes();
+    while let Some((&byte, after)) = rest.split_first() {
+        rest = after;
+        if byte == b'%' {
+            let digits = std::str::from_utf8(rest.get(..2)?).ok()?;
+            bytes.push(u8::from_str_radix(digits, 16).ok()?);
+            rest = &rest[2..];
+        } else {
+            bytes.push(byte);
+        }
+    }
+    String::from_utf8(bytes).ok().filter(|path| !path.contains('\0'))
+}
+
+/// A uri for a message.
+fn cut(uri: &str) -> String {
+    const LONGEST: usize = 60;
+    match uri.char_indices().nth(LONGEST) {
+        Some((end, _)) => format!("{}...", &uri[..end]),
+        None => uri.into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn uris_stay_in_the_folder() {
+        let folder = Path::new("models");
+        assert_eq!(inside(folder, "a%20b.bin"), Some(folder.join("a b.bin")));
+        assert_eq!(inside(folder, "./sub/a.bin"), Some(folder.join("./sub/a.bin")));
+        for bad in [
+            "/etc/a.bin",
+            "../a.bin",
+            "sub/../../a.bin",
+            "%2e%2e/a.bin",
+            "http://host/a.bin",
+            "file:a.bin",
+            "",
+            "a%2",
+            "a%zz",
+            "a%00",
+        ] {
+            assert_eq!(inside(folder, bad), None, "{bad:?}");
+        }
+    }
+}
