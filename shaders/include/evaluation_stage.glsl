@@ -5,7 +5,8 @@
 #include "records.glsl"
 #include "curvature.glsl"
 
-layout(quads, SPACING, ccw) in;
+// Vulkan looks at the domain with v pointing down, so what it calls clockwise is counter-clockwise in (u,v).
+layout(quads, SPACING, cw) in;
 
 layout(location = 1) patch in uint patch_id;
 

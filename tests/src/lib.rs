@@ -1,1 +1,69 @@
-//! The test harness: device, zoo of cages, reference data, image comparison.
+//! The test harness: device, zoo of cages, reference data.
+//!
+//! Tests that draw take [`gpu()`], whose guard fails the test if validation said anything. Tests that compare with data from elsewhere take
+//! [`reference_folder`] and are ignored by default.
+
+pub mod zoo;
+
+use std::path::PathBuf;
+use std::sync::OnceLock;
+
+use osculate::{Device, DeviceDesc, Engine, ShaderSet};
+
+/// The engine that tests share, so that pipelines are compiled once; checks validation when dropped.
+pub struct Gpu {
+    engine: Engine,
+}
+
+/// The device under validation (core and synchronization): that of `OSCULATE_DEVICE`, else the best of this machine.
+///
+/// # Panics
+/// If there is no device: a machine without a GPU needs a software one (Mesa's lavapipe), which tools/setup.sh installs.
+pub fn gpu() -> Gpu {
+    static ENGINE: OnceLock<Engine> = OnceLock::new();
+    Gpu { engine: ENGINE.get_or_init(|| Engine::new(device())).clone() }
+}
+
+/// An engine of its own on the shared device, with changed shaders.
+pub fn gpu_with_shaders(shaders: ShaderSet) -> Gpu {
+    Gpu { engine: Engine::with_shaders(gpu().engine.device().clone(), shaders) }
+}
+
+fn device() -> Device {
+    let desc = DeviceDesc {
+        select: std::env::var("OSCULATE_DEVICE").ok(),
+        validation: true,
+        application: "osculate-tests".to_owned(),
+    };
+    match Device::new(&desc) {
+        Ok(device) => device,
+        Err(error) => panic!(
+            "GPU tests need a Vulkan device and the validation layers (run tools/test.sh, which sets both up): {error}"
+        ),
+    }
+}
+
+impl std::ops::Deref for Gpu {
+    type Target = Engine;
+
+    fn deref(&self) -> &Engine {
+        &self.engine
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        let messages = self.engine.device().validation_messages();
+        if !messages.is_empty() && !std::thread::panicking() {
+            panic!("validation said:\n{}", messages.join("\n"));
+        }
+    }
+}
+
+/// The folder of reference data from elsewhere, for tests marked `#[ignore = "needs OSCULATE_REFERENCE"]`.
+///
+/// # Panics
+/// If the variable `OSCULATE_REFERENCE` is not set.
+pub fn reference_folder() -> PathBuf {
+    std::env::var_os("OSCULATE_REFERENCE").expect("OSCULATE_REFERENCE names the folder of reference data").into()
+}

@@ -1,1 +1,50 @@
 //! Smooth subdivision surfaces through hull and domain stages of Vulkan: the library.
+//!
+//! ```no_run
+//! use osculate::{Cage, Device, DeviceDesc, Engine, RenderDesc, Surface, SurfaceDesc, render};
+//!
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! let cage = Cage::read("creature.obj".as_ref())?;
+//! let engine = Engine::new(Device::new(&DeviceDesc::default())?);
+//! let surface = Surface::new(&engine, &cage, &SurfaceDesc::default())?;
+//! let picture = render(&engine, &[&surface], &RenderDesc::fit(&cage, [800, 600]))?;
+//! # Ok(())
+//! # }
+//! ```
+//!
+//! A [`Surface`] holds a cage's tables and points on the device; [`render()`], [`Surface::capture`], [`Surface::sample`] and [`check()`] draw it, hand out the
+//! triangles that the tessellator made, evaluate single points, and prove that no shared edge is open.
+
+mod buffers;
+mod camera;
+mod capture;
+mod check;
+mod draw;
+mod engine;
+mod error;
+mod frame;
+mod kernels;
+mod keys;
+mod render;
+mod sample;
+mod scheme;
+mod space;
+mod surface;
+mod tessellation;
+
+pub use camera::{Camera, CameraError};
+pub use capture::CapturedVertex;
+pub use check::{CheckReport, WeldReport, check};
+pub use engine::Engine;
+pub use error::EngineError;
+pub use keys::VertexKey;
+pub use osculate_cage::{BoundaryRule, Cage};
+pub use osculate_gpu::{Device, DeviceDesc, DeviceError, DeviceInfo, GpuError, devices};
+pub use osculate_shaders::ShaderSet;
+pub use osculate_subdiv::{PatchKind, PatchLocation, PlanError, SubFace, SurfacePlan};
+pub use render::{Picture, RenderDesc, Shade, render};
+pub use sample::{Sample, SurfacePoint};
+pub use scheme::{Scheme, UnknownScheme};
+pub use space::CageSpace;
+pub use surface::{Surface, SurfaceDesc};
+pub use tessellation::{Factors, Spacing, Tessellation};

@@ -103,4 +103,24 @@ shared_structs! {
         /// First weight of the list's change of basis.
         pub weights: u32,
     }
+
+    /// What a kernel over elements of one kind needs (`shaders/include/kernel_push.glsl`).
+    pub struct KernelPush {
+        /// Elements to compute.
+        pub count: u32,
+        /// Index of the first element written, in the buffer that the kernel writes.
+        pub first: u32,
+        /// Distance from an old point to its new point, for the vertex kernel.
+        pub old_distance: u32,
+    }
+
+    /// A point that `shaders/evaluate/sample.comp` is asked for.
+    pub struct SampleRequest {
+        /// Global id of the patch.
+        pub patch_id: u32,
+        /// First parameter.
+        pub u: f32,
+        /// Second parameter.
+        pub v: f32,
+    }
 }

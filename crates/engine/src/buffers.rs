@@ -1,0 +1,138 @@
+//! A plan's tables on the device.
+
+use bytemuck::{NoUninit, cast_slice};
+use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, Device, Memory};
+use osculate_shaders::{binding, constant};
+use osculate_subdiv::SurfacePlan;
+
+use crate::EngineError;
+
+/// Tables of one refinement level.
+pub(crate) struct LevelBuffers {
+    /// Spans and indices of faces.
+    pub(crate) face: Bindings,
+    /// The face table as quadruples for the edge kernel, and the edge table.
+    pub(crate) edge: Bindings,
+    /// Spans and indices of vertices.
+    pub(crate) vertex: Bindings,
+}
+
+/// All buffers of a surface. Each kernel takes the bindings that fit it; all of them hold the common buffers.
+pub(crate) struct SurfaceBuffers {
+    /// Where the host writes the cage's points.
+    pub(crate) staging: Buffer,
+    pub(crate) points: Buffer,
+    pub(crate) vertex_records: Buffer,
+    pub(crate) edge_records: Buffer,
+    pub(crate) gregory_points: Buffer,
+    pub(crate) levels: Vec<LevelBuffers>,
+    pub(crate) phantom: Bindings,
+    pub(crate) vertex_regular: Bindings,
+    pub(crate) vertex_general: Bindings,
+    pub(crate) edge_regular: Bindings,
+    pub(crate) edge_general: Bindings,
+    pub(crate) coefficients: Bindings,
+    /// What the patch stages and the sampling kernel read.
+    pub(crate) patches: Bindings,
+    /// Edges of the cage, for the overlay.
+    pub(crate) cage_edges: Bindings,
+    /// Bytes of all of them.
+    pub(crate) bytes: u64,
+}
+
+/// Makes buffers, and refuses those that a shader could not see whole.
+struct Uploader<'a> {
+    device: &'a Device,
+    bytes: u64,
+}
+
+impl Uploader<'_> {
+    fn check(&mut self, name: &str, bytes: u64) -> Result<(), EngineError> {
+        let limit = self.device.info().limits.max_storage_buffer_range;
+        if bytes > limit {
+            let (what, device) = (name.to_owned(), self.device.info().name.clone());
+            return Err(EngineError::TooLarge { what, bytes, limit, device });
+        }
+        self.bytes += bytes;
+        Ok(())
+    }
+
+    fn table<T: NoUninit>(&mut self, name: &str, data: &[T]) -> Result<Buffer, EngineError> {
+        self.check(name, size_of_val(data) as u64)?;
+        Ok(self.device.upload(name, BufferUsage::STORAGE, data)?)
+    }
+
+    fn floats(&mut self, name: &str, count: u64) -> Result<Buffer, EngineError> {
+        self.check(name, 4 * count)?;
+        let desc = BufferDesc { name, size: 4 * count, usage: BufferUsage::STORAGE, memory: Memory::Device };
+        Ok(self.device.buffer(&desc)?)
+    }
+}
+
+impl SurfaceBuffers {
+    pub(crate) fn new(device: &Device, plan: &SurfacePlan, cage_edges: &[[u32; 2]]) -> Result<Self, EngineError> {
+        let mut up = Uploader { device, bytes: 0 };
+        let points = up.floats("points", u64::from(plan.point_count) * 3)?;
+        let vertex_records = up.floats(
+            "vertex records",
+            (plan.vertex_records.count() as u64) * u64::from(constant::VERTEX_RECORD_FLOATS),
+        )?;
+        let edge_records =
+            up.floats("edge records", (plan.edge_records.count() as u64) * u64::from(constant::EDGE_RECORD_FLOATS))?;
+        let gregory_points =
+            up.floats("coefficients", plan.coefficient_count() as u64 * 3 * u64::from(constant::GREGORY_POINTS))?;
+        let common = Bindings::new()
+            .with(binding::POINTS, &points)
+            .with(binding::NETS, &up.table("nets", &plan.nets)?)
+            .with(binding::PATCHES, &up.table("patches", &plan.patches)?)
+            .with(binding::WEIGHTS, &up.table("weights", &plan.weights)?)
+            .with(binding::VERTEX_RECORDS, &vertex_records)
+            .with(binding::EDGE_RECORDS, &edge_records)
+            .with(binding::COEFFICIENTS, &gregory_points);
+        let levels = plan
+            .levels
+            .iter()
+            .map(|tables| -> Result<LevelBuffers, EngineError> {
+                let face_indices = up.table("face indices", &tables.face_indices)?;
+                let spans = |bindings: Bindings, buffer: &Buffer| bindings.with(binding::SPANS, buffer);
+                let indices = |buffer: &Buffer| common.clone().with(binding::INDICES, buffer);
+                Ok(LevelBuffers {
+                    face: spans(indices(&face_indices), &up.table("face spans", &tables.face_spans)?),
+                    edge: indices(&up.table("edge indices", cast_slice::<_, u32>(&tables.edge_indices))?),
+                    vertex: spans(
+                        indices(&up.table("vertex indices", &tables.vertex_indices)?),
+                        &up.table("vertex spans", &tables.vertex_spans)?,
+                    ),
+                })
+            })
+            .collect::<Result<_, _>>()?;
+        let mut sources = |name: &str, data: &[u32]| -> Result<Bindings, EngineError> {
+            Ok(common.clone().with(binding::SOURCES, &up.table(name, data)?))
+        };
+        let (vertices, edges) = (&plan.vertex_records, &plan.edge_records);
+        Ok(Self {
+            vertex_regular: sources("sources of regular vertex records", &vertices.regular)?,
+            vertex_general: sources("sources of general vertex records", cast_slice(&vertices.general))?,
+            edge_regular: sources("sources of regular edge records", &edges.regular)?,
+            edge_general: sources("sources of general edge records", cast_slice(&edges.general))?,
+            coefficients: sources("sources of coefficients", cast_slice(&plan.coefficients))?,
+            phantom: common.clone().with(binding::INDICES, &up.table("phantom points", &plan.reflections)?),
+            cage_edges: common.clone().with(binding::INDICES, &up.table("cage edges", cage_edges)?),
+            staging: staging(device, plan)?,
+            points,
+            vertex_records,
+            edge_records,
+            gregory_points,
+            levels,
+            patches: common,
+            bytes: up.bytes,
+        })
+    }
+}
+
+fn staging(device: &Device, plan: &SurfacePlan) -> Result<Buffer, EngineError> {
+    let cage_points = plan.levels.first().map_or(0, |tables| tables.vertex_count()) as u64;
+    let desc =
+        BufferDesc { name: "cage points", size: 12 * cage_points, usage: BufferUsage::STORAGE, memory: Memory::Upload };
+    Ok(device.buffer(&desc)?)
+}

@@ -1,0 +1,125 @@
+//! Where the surface is looked at from.
+
+use glam::dcamera::rh;
+use glam::{DMat4, DVec3};
+use osculate_cage::Bounds;
+
+use crate::CageSpace;
+
+/// A perspective camera in the cage's own coordinates, right-handed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where the eye is.
+    pub eye: DVec3,
+    /// What it looks at.
+    pub at: DVec3,
+    /// Roughly upwards.
+    pub up: DVec3,
+    /// Vertical field of view in radians.
+    pub fovy: f64,
+    /// Nearest distance shown.
+    pub near: f64,
+    /// Farthest distance shown.
+    pub far: f64,
+}
+
+/// Why a camera cannot look.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CameraError {
+    /// Eye and target coincide, or a number is not finite.
+    #[error("the camera's eye {0} and target {1} must be two different points")]
+    NoDirection(DVec3, DVec3),
+    /// The up vector is parallel to the view direction.
+    #[error("the camera's up vector {0} is zero or parallel to the view direction")]
+    NoUp(DVec3),
+    /// The field of view is out of range.
+    #[error("the field of view of {0} degrees is not between 0 and 180")]
+    FieldOfView(f64),
+}
+
+impl Camera {
+    /// The camera that shows a whole box from its upper right front: 45 degrees, along (1, 0.75, 1.5).
+    pub fn fit(bounds: Bounds) -> Self {
+        let radius = if bounds.half_diagonal() > 0.0 { bounds.half_diagonal() } else { 1.0 };
+        let fovy = 45f64.to_radians();
+        let distance = radius / (fovy / 2.0).sin();
+        let eye = bounds.center() + distance * DVec3::new(1.0, 0.75, 1.5).normalize();
+        let near = (distance - 1.2 * radius).max(0.01 * distance);
+        Self { eye, at: bounds.center(), up: DVec3::Y, fovy, near, far: distance + 1.2 * radius }
+    }
+
+    /// A camera at `eye` that looks at `at`, its near and far planes around a box.
+    ///
+    /// # Errors
+    /// If there is no direction to look in, or `fovy` (radians) is not between 0 and pi.
+    pub fn look_at(eye: DVec3, at: DVec3, up: DVec3, fovy: f64, bounds: Bounds) -> Result<Self, CameraError> {
+        if !(eye.is_finite() && at.is_finite() && (at - eye).length() > 0.0) {
+            return Err(CameraError::NoDirection(eye, at));
+        }
+        let sine = (at - eye).normalize().cross(up.normalize_or_zero()).length();
+        if !(sine > 1e-9) {
+            return Err(CameraError::NoUp(up));
+        }
+        if !(fovy > 0.0 && fovy < std::f64::consts::PI) {
+            return Err(CameraError::FieldOfView(fovy.to_degrees()));
+        }
+        let radius = if bounds.half_diagonal() > 0.0 { bounds.half_diagonal() } else { 1.0 };
+        let distance = (bounds.center() - eye).length();
+        let near = (distance - 1.2 * radius).max(0.01 * distance.max(radius));
+        Ok(Self { eye, at, up, fovy, near, far: (distance + 1.2 * radius).max(2.0 * near) })
+    }
+
+    /// View space from cage space.
+    pub(crate) fn view(&self, space: &CageSpace) -> DMat4 {
+        let direction = (self.at - self.eye).normalize();
+        let up = if direction.cross(self.up).length() > 0.0 { self.up } else { DVec3::X };
+        rh::view::look_to_mat4(space.enter_exactly(self.eye), direction, up)
+    }
+
+    /// Clip space from cage space: y down, depth 0 to 1, as Vulkan has it.
+    pub(crate) fn clip(&self, space: &CageSpace, aspect: f64) -> DMat4 {
+        let (near, far) = (self.near * space.scale, self.far * space.scale);
+        rh::proj::vulkan::perspective(self.fovy, aspect, near, far) * self.view(space)
+    }
+
+    /// Pixels that a length spans at unit distance, in a picture of that height.
+    pub(crate) fn pixels_per_length(&self, height: u32) -> f64 {
+        f64::from(height) / (2.0 * (self.fovy / 2.0).tan())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn bounds() -> Bounds {
+        Bounds { min: DVec3::new(-1.0, 2.0, 3.0), max: DVec3::new(3.0, 4.0, 9.0) }
+    }
+
+    #[test]
+    fn the_fitted_box_is_inside_the_picture() {
+        let camera = Camera::fit(bounds());
+        let space = CageSpace::new(bounds());
+        let clip = camera.clip(&space, 1.0);
+        for corner in 0..8 {
+            let pick = |i: usize| if corner >> i & 1 == 0 { bounds().min[i] } else { bounds().max[i] };
+            let p = clip.project_point3(space.enter_exactly(DVec3::new(pick(0), pick(1), pick(2))));
+            assert!(p.x.abs() < 1.0 && p.y.abs() < 1.0 && (0.0..1.0).contains(&p.z), "{p}");
+        }
+        let centre = clip.project_point3(DVec3::ZERO);
+        assert!(centre.x.abs() < 1e-9 && centre.y.abs() < 1e-9);
+        // Up is up: y points down in the picture.
+        assert!(clip.project_point3(DVec3::new(0.0, 0.1, 0.0)).y < 0.0);
+    }
+
+    #[test]
+    fn cameras_without_direction_are_refused() {
+        let look = |eye: DVec3, at: DVec3, up: DVec3, fovy: f64| Camera::look_at(eye, at, up, fovy, bounds());
+        assert!(matches!(look(DVec3::ONE, DVec3::ONE, DVec3::Y, 1.0), Err(CameraError::NoDirection(..))));
+        assert!(matches!(look(DVec3::ZERO, DVec3::Y, DVec3::Y, 1.0), Err(CameraError::NoUp(..))));
+        assert!(matches!(look(DVec3::ZERO, DVec3::X, DVec3::Y, 4.0), Err(CameraError::FieldOfView(..))));
+        assert!(matches!(look(DVec3::NAN, DVec3::X, DVec3::Y, 1.0), Err(CameraError::NoDirection(..))));
+        assert!(look(DVec3::ZERO, DVec3::X, DVec3::Y, 1.0).is_ok());
+    }
+}

@@ -1,0 +1,213 @@
+//! The proof that a tessellated surface has no cracks.
+//!
+//! Points are compared by key, not by place: vertices with the same record (and parameter, on an edge) must have the same bits in position and normal, and
+//! the triangles must close over those keys. Inside a patch the triangles must close over (u,v). Only what lies on the border of patches is kept, so the
+//! memory needed grows with edges, not with triangles.
+
+use std::collections::HashMap;
+
+use osculate_subdiv::SurfacePlan;
+
+use crate::keys::{edge_parameter, is_on_side};
+use crate::{CapturedVertex, EngineError, Surface, Tessellation, VertexKey};
+
+/// What [`check`] found. A watertight surface has zero in all but `triangles` and `degenerate`.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CheckReport {
+    /// Triangles drawn.
+    pub triangles: u64,
+    /// Triangle edges without a partner that are not on the boundary of the surface, plus `split_positions`: a crack either way.
+    pub open: u64,
+    /// Triangle edges that more than two triangles share, or two with the same direction.
+    pub over_shared: u64,
+    /// Keys whose vertices differ in position.
+    pub split_positions: u64,
+    /// Keys whose vertices differ in normal.
+    pub split_normals: u64,
+    /// Triangles that run clockwise in their patch.
+    pub inverted: u64,
+    /// Triangles without area in their patch: no error.
+    pub degenerate: u64,
+    /// The same question asked of positions alone.
+    pub weld: WeldReport,
+}
+
+/// Edges between patches after welding vertices of equal position bits. Records that happen to lie at one place are welded, too, so a surface that touches
+/// itself may show shared edges here.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WeldReport {
+    /// Edges on the border of patches without a partner that are not on the boundary of the surface.
+    pub open: u64,
+    /// Edges on the border of patches that more than two triangles share.
+    pub over_shared: u64,
+}
+
+impl CheckReport {
+    /// Whether the surface has no cracks and no wrong triangles.
+    pub fn is_watertight(&self) -> bool {
+        self.open == 0 && self.over_shared == 0 && self.split_normals == 0 && self.inverted == 0
+    }
+}
+
+/// Draws a surface into memory and looks for cracks.
+///
+/// # Errors
+/// As [`Surface::capture`].
+pub fn check(surface: &Surface, tessellation: &Tessellation) -> Result<CheckReport, EngineError> {
+    let mut proof = Proof::new(surface.plan());
+    surface.capture(tessellation, |vertices| proof.add(vertices))?;
+    proof.finish()
+}
+
+/// Bits of a position or a normal.
+type Bits = [u32; 3];
+
+fn bits(v: [f32; 3]) -> Bits {
+    v.map(f32::to_bits)
+}
+
+/// A directed triangle edge on the border of a patch: edge record and the bits of the parameter at either end.
+type BorderEdge = (u32, u32, u32);
+
+struct Proof<'a> {
+    plan: &'a SurfacePlan,
+    report: CheckReport,
+    /// First position and normal seen of each shared key, and whether another differed.
+    shared: HashMap<VertexKey, (Bits, Bits)>,
+    border: HashMap<BorderEdge, u32>,
+    /// Directed edges between positions, and whether the edge lies on the boundary of the surface.
+    welded: HashMap<(Bits, Bits), (u32, bool)>,
+    drawn: Vec<bool>,
+}
+
+impl<'a> Proof<'a> {
+    fn new(plan: &'a SurfacePlan) -> Self {
+        Self {
+            plan,
+            report: CheckReport::default(),
+            shared: HashMap::new(),
+            border: HashMap::new(),
+            welded: HashMap::new(),
+            drawn: vec![false; plan.patches.len()],
+        }
+    }
+
+    /// Takes whole patches.
+    fn add(&mut self, vertices: &[CapturedVertex]) -> Result<(), EngineError> {
+        for patch in vertices.chunk_by(|a, b| a.patch == b.patch) {
+            let id = patch[0].patch as usize;
+            let drawn = self.drawn.get_mut(id).ok_or_else(|| {
+                EngineError::Inconsistent(format!(
+                    "a captured vertex names patch {id}, there are {}",
+                    self.plan.patches.len()
+                ))
+            })?;
+            if patch.len() % 3 != 0 || std::mem::replace(drawn, true) {
+                return Err(EngineError::Inconsistent(format!("the triangles of patch {id} do not follow each other")));
+            }
+            self.add_patch(patch);
+        }
+        Ok(())
+    }
+
+    fn add_patch(&mut self, vertices: &[CapturedVertex]) {
+        let mut local: HashMap<[u32; 2], u32> = HashMap::new();
+        let mut points: Vec<&CapturedVertex> = Vec::new();
+        let mut edges = Vec::with_capacity(vertices.len());
+        for triangle in vertices.chunks_exact(3) {
+            self.report.triangles += 1;
+            let area = parameter_area(triangle);
+            if area == 0.0 {
+                self.report.degenerate += 1;
+            } else if area < 0.0 {
+                self.report.inverted += 1;
+            }
+            let ids = [0, 1, 2].map(|i| {
+                let vertex = &triangle[i];
+                let id = *local.entry(vertex.uv.map(f32::to_bits)).or_insert_with(|| {
+                    points.push(vertex);
+                    (points.len() - 1) as u32
+                });
+                self.compare(points[id as usize], vertex);
+                id
+            });
+            edges.extend([(ids[0], ids[1]), (ids[1], ids[2]), (ids[2], ids[0])].into_iter().filter(|(a, b)| a != b));
+        }
+        for point in &points {
+            self.add_shared(point);
+        }
+        self.close_patch(&points, edges);
+    }
+
+    /// Two vertices of one patch at the same (u,v).
+    fn compare(&mut self, first: &CapturedVertex, again: &CapturedVertex) {
+        self.report.split_positions += u64::from(bits(first.position) != bits(again.position));
+        self.report.split_normals += u64::from(bits(first.normal) != bits(again.normal));
+    }
+
+    fn add_shared(&mut self, vertex: &CapturedVertex) {
+        let key = VertexKey::of(self.plan, vertex);
+        if matches!(key, VertexKey::Inside(..)) {
+            return;
+        }
+        let (position, normal) = (bits(vertex.position), bits(vertex.normal));
+        let first = *self.shared.entry(key).or_insert((position, normal));
+        self.report.split_positions += u64::from(first.0 != position);
+        self.report.split_normals += u64::from(first.1 != normal);
+    }
+
+    /// Pairs the directed edges of a patch's triangles; those left over must lie on its sides.
+    fn close_patch(&mut self, points: &[&CapturedVertex], mut edges: Vec<(u32, u32)>) {
+        edges.sort_unstable();
+        for run in edges.chunk_by(|a, b| a == b) {
+            self.report.over_shared += (run.len() - 1) as u64;
+            let (a, b) = run[0];
+            if edges.binary_search(&(b, a)).is_err() {
+                self.add_border(points[a as usize], points[b as usize]);
+            }
+        }
+    }
+
+    fn add_border(&mut self, a: &CapturedVertex, b: &CapturedVertex) {
+        let record = &self.plan.patches[a.patch as usize];
+        let Some(side) = (0..4).find(|&side| is_on_side(side, a.uv) && is_on_side(side, b.uv)) else {
+            self.report.open += 1;
+            return;
+        };
+        let edge = record.edge[side] / 2;
+        let t = |vertex: &CapturedVertex| edge_parameter(record, side, vertex.uv).to_bits();
+        *self.border.entry((edge, t(a), t(b))).or_default() += 1;
+        let boundary = self.plan.boundary_edges[edge as usize];
+        let welded = self.welded.entry((bits(a.position), bits(b.position))).or_insert((0, boundary));
+        welded.0 += 1;
+        welded.1 |= boundary;
+    }
+
+    fn finish(mut self) -> Result<CheckReport, EngineError> {
+        if let Some(patch) = self.drawn.iter().position(|&drawn| !drawn) {
+            return Err(EngineError::Inconsistent(format!("patch {patch} was not drawn")));
+        }
+        for (&(edge, a, b), &count) in &self.border {
+            self.report.over_shared += u64::from(count - 1);
+            let partner = self.border.contains_key(&(edge, b, a));
+            self.report.open += u64::from(!partner && !self.plan.boundary_edges[edge as usize]);
+        }
+        for (&(a, b), &(count, boundary)) in &self.welded {
+            // An edge shorter than the spacing of floats welds to a point.
+            if a == b {
+                continue;
+            }
+            let back = self.welded.get(&(b, a)).map_or(0, |other| other.0);
+            self.report.weld.over_shared += u64::from(count > 1);
+            self.report.weld.open += u64::from(back == 0 && !boundary);
+        }
+        self.report.open += self.report.split_positions;
+        Ok(self.report)
+    }
+}
+
+/// Twice the signed area of a triangle in (u,v), in f64: the products of f32 differences are exact enough to tell its sign.
+fn parameter_area(triangle: &[CapturedVertex]) -> f64 {
+    let [a, b, c] = [0, 1, 2].map(|i| triangle[i].uv.map(f64::from));
+    (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+}

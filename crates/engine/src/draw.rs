@@ -1,0 +1,206 @@
+//! Pipelines and draws of patch lists.
+
+use bytemuck::bytes_of;
+use osculate_gpu::{
+    Bindings, Compare, DepthBias, DepthState, Draw, Format, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode,
+    Tessellation as Stages, Topology,
+};
+use osculate_shaders::{constant, layout::PatchPush};
+use osculate_subdiv::{PatchKind, PatchList};
+
+use crate::{Engine, EngineError, Spacing, Surface, Tessellation};
+
+/// What becomes of tessellated patches.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Output {
+    /// Filled triangles; with `behind`, pushed back a little so that lines lie upon them.
+    Fill { target: Target, behind: bool },
+    /// The edges of the triangles.
+    Lines(Target),
+    /// Captured by transform feedback.
+    Capture,
+}
+
+/// What is drawn to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Target {
+    pub(crate) color: Format,
+    pub(crate) samples: u32,
+}
+
+pub(crate) const DEPTH_FORMAT: Format = Format::Depth32Float;
+
+/// Everything that tells one graphics pipeline from another. Level, camera and shade are uniforms, lest pipelines multiply.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum PipelineKey {
+    /// Patches of a kind.
+    Patches { kind: PatchKind, spacing: Spacing, output: Output },
+    /// Lines of the cage overlay.
+    Cage(Target),
+}
+
+/// Stem of the stages of a patch kind.
+fn stem(kind: PatchKind) -> &'static str {
+    match kind {
+        PatchKind::Regular => "regular",
+        PatchKind::Extraordinary { .. } => "gregory2",
+        PatchKind::Coefficients => "coefficients",
+    }
+}
+
+/// Points per patch that the vertex stage hands over.
+fn patch_points(kind: PatchKind) -> u32 {
+    match kind {
+        PatchKind::Regular => 16,
+        PatchKind::Extraordinary { valence } => 2 * valence + 8,
+        PatchKind::Coefficients => 1,
+    }
+}
+
+impl PipelineKey {
+    pub(crate) fn make(self, engine: &Engine) -> Result<GraphicsPipeline, EngineError> {
+        match self {
+            Self::Patches { kind, spacing, output } => make_patches(engine, kind, spacing, output),
+            Self::Cage(target) => make_cage(engine, target),
+        }
+    }
+}
+
+fn make_patches(
+    engine: &Engine,
+    kind: PatchKind,
+    spacing: Spacing,
+    output: Output,
+) -> Result<GraphicsPipeline, EngineError> {
+    let stem = stem(kind);
+    let capture = if output == Output::Capture { ",capture" } else { "" };
+    let vertex = if kind == PatchKind::Coefficients { "patch/coefficients.vert" } else { "patch/patch.vert" };
+    let vertex = engine.shader(vertex)?;
+    let control = engine.shader(&format!("patch/{stem}.tesc"))?;
+    let evaluation = engine.shader(&format!("patch/{stem}.tese#{}{capture}", spacing.variant()))?;
+    let fragment = match output {
+        Output::Fill { .. } => Some(engine.shader("shade/surface.frag")?),
+        Output::Lines(_) => Some(engine.shader("shade/line.frag")?),
+        Output::Capture => None,
+    };
+    let name = match kind {
+        PatchKind::Extraordinary { valence } => format!("{stem}, valence {valence}, {output:?}"),
+        _ => format!("{stem}, {output:?}"),
+    };
+    let specialization = [(constant::SPEC_NET_SIZE, patch_points(kind))];
+    let desc = GraphicsPipelineDesc {
+        tessellation: Some(Stages { control: &control, evaluation: &evaluation, patch_points: patch_points(kind) }),
+        fragment: fragment.as_ref(),
+        topology: Topology::Patches,
+        specialization: &specialization,
+        ..GraphicsPipelineDesc::new(&name, &vertex)
+    };
+    Ok(engine.device().graphics_pipeline(&with_output(desc, output))?)
+}
+
+fn with_output<'a>(desc: GraphicsPipelineDesc<'a>, output: Output) -> GraphicsPipelineDesc<'a> {
+    let drawn = |target: Target, polygon_mode, depth| GraphicsPipelineDesc {
+        polygon_mode,
+        depth: Some(depth),
+        color_format: Some(target.color),
+        depth_format: Some(DEPTH_FORMAT),
+        samples: target.samples,
+        ..desc
+    };
+    match output {
+        Output::Fill { target, behind } => {
+            let bias = behind.then_some(DepthBias { constant: 4.0, slope: 1.5 });
+            drawn(target, PolygonMode::Fill, DepthState { bias, ..DepthState::default() })
+        }
+        Output::Lines(target) => {
+            drawn(target, PolygonMode::Line, DepthState { compare: Compare::LessOrEqual, ..DepthState::default() })
+        }
+        Output::Capture => GraphicsPipelineDesc { rasterizer_discard: true, ..desc },
+    }
+}
+
+fn make_cage(engine: &Engine, target: Target) -> Result<GraphicsPipeline, EngineError> {
+    let vertex = engine.shader("shade/cage.vert")?;
+    let fragment = engine.shader("shade/line.frag")?;
+    let desc = GraphicsPipelineDesc {
+        fragment: Some(&fragment),
+        topology: Topology::Lines,
+        depth: Some(DepthState { compare: Compare::LessOrEqual, ..DepthState::default() }),
+        color_format: Some(target.color),
+        depth_format: Some(DEPTH_FORMAT),
+        samples: target.samples,
+        ..GraphicsPipelineDesc::new("cage overlay", &vertex)
+    };
+    Ok(engine.device().graphics_pipeline(&desc)?)
+}
+
+/// Most patches of one draw.
+///
+/// llvmpipe numbers the tessellated vertices of a draw with 16 bits and garbles the triangles beyond 65 535 without a word; a patch makes at most
+/// (segments + 2)^2 of them.
+pub(crate) fn patches_per_draw(engine: &Engine, segments: u32) -> u32 {
+    if engine.device().info().is_llvmpipe { (65_535 / ((segments + 2) * (segments + 2))).max(1) } else { u32::MAX / 64 }
+}
+
+/// Consecutive patches of a list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Run<'a> {
+    pub(crate) list: &'a PatchList,
+    /// First patch of the run, counted in its list.
+    pub(crate) first: u32,
+    pub(crate) count: u32,
+}
+
+/// All patches of a surface in order, in runs of at most `longest`.
+pub(crate) fn runs(lists: &[PatchList], longest: u32) -> impl Iterator<Item = Run<'_>> {
+    lists.iter().flat_map(move |list| {
+        (0..list.count).step_by(longest as usize).map(move |first| Run {
+            list,
+            first,
+            count: longest.min(list.count - first),
+        })
+    })
+}
+
+impl Surface {
+    /// The draw of a run of patches; `bindings` are those of the surface and the frame.
+    pub(crate) fn draw(
+        &self,
+        run: Run<'_>,
+        bindings: &Bindings,
+        tessellation: &Tessellation,
+        output: Output,
+    ) -> Result<Draw, EngineError> {
+        let list = run.list;
+        let points = patch_points(list.kind);
+        let push = PatchPush {
+            net_offset: list.first_index,
+            net_size: points,
+            first_patch: list.first_patch,
+            weights: list.weights,
+        };
+        let key = PipelineKey::Patches { kind: list.kind, spacing: tessellation.spacing, output };
+        Ok(Draw {
+            pipeline: self.engine().pipeline(key)?,
+            bindings: bindings.clone(),
+            push: bytes_of(&push).to_vec(),
+            vertices: (run.first * points..(run.first + run.count) * points).into(),
+            instances: 0..1,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn runs_cover_every_patch_once() {
+        let list =
+            |first_patch, count| PatchList { kind: PatchKind::Regular, first_patch, count, first_index: 0, weights: 0 };
+        let lists = [list(0, 31), list(31, 10)];
+        let runs: Vec<(u32, u32, u32)> =
+            runs(&lists, 15).map(|run| (run.list.first_patch, run.first, run.count)).collect();
+        assert_eq!(runs, [(0, 0, 15), (0, 15, 15), (0, 30, 1), (31, 0, 10)]);
+    }
+}

@@ -1,0 +1,77 @@
+//! What can go wrong when a surface is made or drawn.
+
+use osculate_gpu::GpuError;
+use osculate_subdiv::PlanError;
+
+/// Why the engine could not do what it was asked.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum EngineError {
+    /// The cage cannot be planned.
+    #[error(transparent)]
+    Plan(#[from] PlanError),
+    /// The device failed or refused.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A table of the cage is larger than a shader can see on this device.
+    #[error(
+        "the cage's {what} take {bytes} bytes; device {device:?} lets a shader see at most {limit}: use a smaller cage or another device"
+    )]
+    TooLarge {
+        /// The table.
+        what: String,
+        /// Its size.
+        bytes: u64,
+        /// The device's limit.
+        limit: u64,
+        /// Name of the device.
+        device: String,
+    },
+    /// A shader is missing from the set.
+    #[error("the shader set has no shader named {name:?}")]
+    MissingShader {
+        /// Its name.
+        name: String,
+    },
+    /// New points do not fit the cage.
+    #[error("the cage has {expected} points, {found} were given")]
+    PointCount {
+        /// Points of the cage.
+        expected: usize,
+        /// Points given.
+        found: usize,
+    },
+    /// A point that was asked for is not on the surface.
+    #[error("there is no point (face {face}, sub {sub}, s {s}, t {t}): {reason}")]
+    NoSuchPoint {
+        /// Face of the cage.
+        face: u32,
+        /// Sub-face.
+        sub: i32,
+        /// First coordinate.
+        s: f64,
+        /// Second coordinate.
+        t: f64,
+        /// What is wrong with it.
+        reason: &'static str,
+    },
+    /// A tessellation factor is out of range.
+    #[error("tessellation level {level} is not in 1..64")]
+    Level {
+        /// The level asked for.
+        level: f32,
+    },
+    /// Something was asked for that the device cannot do.
+    #[error("device {device:?} cannot {what}: {hint}")]
+    Unsupported {
+        /// Name of the device.
+        device: String,
+        /// What it cannot do.
+        what: String,
+        /// What to do instead.
+        hint: String,
+    },
+    /// Work of the engine was inconsistent with itself: a defect of the driver or of this library.
+    #[error("{0}")]
+    Inconsistent(String),
+}

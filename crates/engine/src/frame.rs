@@ -1,0 +1,73 @@
+//! The uniform block of a frame.
+
+use glam::DMat4;
+use osculate_gpu::{Buffer, BufferDesc, BufferUsage, Device, Memory};
+use osculate_shaders::constant;
+use osculate_shaders::layout::Frame;
+
+use crate::{CageSpace, Camera, EngineError, Factors, Shade, Tessellation};
+
+/// Length of the box's half diagonal over which bending by one radian saturates the curvature colours.
+const CURVATURE_LENGTH: f32 = 0.12;
+
+/// What a frame shows, before it becomes a uniform block.
+pub(crate) struct FrameDesc<'a> {
+    pub(crate) space: &'a CageSpace,
+    pub(crate) tessellation: &'a Tessellation,
+    /// Camera and aspect ratio of the picture; none when nothing is drawn.
+    pub(crate) view: Option<(&'a Camera, f64)>,
+    pub(crate) shade: Shade,
+    pub(crate) line_color: [f32; 4],
+}
+
+fn columns(m: DMat4) -> [[f32; 4]; 4] {
+    m.as_mat4().to_cols_array_2d()
+}
+
+impl FrameDesc<'_> {
+    /// The block as the shaders see it.
+    pub(crate) fn block(&self) -> Frame {
+        let (clip, view) = match self.view {
+            Some((camera, aspect)) => (camera.clip(self.space, aspect), camera.view(self.space)),
+            None => (DMat4::IDENTITY, DMat4::IDENTITY),
+        };
+        let mut frame = Frame {
+            clip_from_cage: columns(clip),
+            view_from_cage: columns(view),
+            eye: self.view.map_or([0.0; 4], |(camera, _)| self.eye(camera)),
+            level: 1.0,
+            segments_per_length: 0.0,
+            factor_mode: constant::FACTORS_UNIFORM,
+            shade: self.shade.constant(),
+            curvature_length: CURVATURE_LENGTH,
+            near: 0.0,
+            padding0: 0,
+            padding1: 0,
+            line_color: self.line_color,
+        };
+        match &self.tessellation.factors {
+            Factors::Uniform(level) => frame.level = *level,
+            Factors::Adaptive { pixels, camera, height } => {
+                frame.factor_mode = constant::FACTORS_ADAPTIVE;
+                frame.segments_per_length = (camera.pixels_per_length(*height) / f64::from(*pixels)) as f32;
+                frame.near = (camera.near * self.space.scale) as f32;
+                // The factors' eye is the frame's; a frozen tessellation camera would need its own.
+                frame.eye = self.eye(camera);
+            }
+        }
+        frame
+    }
+
+    fn eye(&self, camera: &Camera) -> [f32; 4] {
+        self.space.enter(camera.eye).extend(1.0).to_array()
+    }
+
+    /// The block in a buffer.
+    pub(crate) fn upload(&self, device: &Device) -> Result<Buffer, EngineError> {
+        let size = size_of::<Frame>() as u64;
+        let desc = BufferDesc { name: "frame", size, usage: BufferUsage::UNIFORM, memory: Memory::Upload };
+        let buffer = device.buffer(&desc)?;
+        buffer.write(0, &[self.block()])?;
+        Ok(buffer)
+    }
+}

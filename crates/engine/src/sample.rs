@@ -1,0 +1,114 @@
+//! Points of the surface on request, evaluated on the device by the includes of the evaluation stages.
+
+use glam::{DVec3, Vec3};
+use osculate_gpu::{BufferDesc, BufferUsage, Memory, Recording};
+use osculate_shaders::binding;
+use osculate_shaders::constant::SAMPLE_FLOATS;
+use osculate_shaders::layout::{KernelPush, SampleRequest};
+use osculate_subdiv::{NONE, SubFace};
+
+use crate::kernels::Kernel;
+use crate::{EngineError, Surface};
+
+/// A point of the surface: (s,t) of a base quad, or of a sub-face of any other face.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// Where on the cage.
+    pub sub_face: SubFace,
+    /// First coordinate, 0 to 1.
+    pub s: f64,
+    /// Second coordinate, 0 to 1.
+    pub t: f64,
+}
+
+/// The surface at a point, in the cage's own coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample {
+    /// Position.
+    pub position: DVec3,
+    /// Derivative with respect to s.
+    pub du: DVec3,
+    /// Derivative with respect to t.
+    pub dv: DVec3,
+    /// Unit normal; zero where there is none.
+    pub normal: DVec3,
+    /// The point is a corner at an irregular vertex: `du` and `dv` are the patch's, not limits.
+    pub irregular: bool,
+}
+
+/// Requests sent at once.
+const CHUNK: usize = 1 << 20;
+
+impl Surface {
+    /// Evaluates points.
+    ///
+    /// # Errors
+    /// If a point does not exist (no such face, outside the unit square, in a face that is not drawn), or the device fails.
+    pub fn sample(&self, points: &[SurfacePoint]) -> Result<Vec<Sample>, EngineError> {
+        let found = points.iter().map(|point| self.find(point)).collect::<Result<Vec<_>, _>>()?;
+        let mut samples = Vec::with_capacity(points.len());
+        for chunk in found.chunks(CHUNK) {
+            let values = self.evaluate(chunk)?;
+            samples.extend(
+                chunk.iter().zip(values.chunks_exact(SAMPLE_FLOATS as usize)).map(|(at, v)| self.finish(at, v)),
+            );
+        }
+        Ok(samples)
+    }
+
+    /// Patch and parameters of a point.
+    fn find(&self, point: &SurfacePoint) -> Result<SampleRequest, EngineError> {
+        let &SurfacePoint { sub_face: SubFace { face, sub }, s, t } = point;
+        let error = |reason| EngineError::NoSuchPoint { face, sub, s, t, reason };
+        if !((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)) {
+            return Err(error("s and t go from 0 to 1"));
+        }
+        let found = self.plan().locator.find(point.sub_face, [s, t]);
+        let (quad, [u, v]) = found.ok_or_else(|| error("the cage has no such face or sub-face; quads have sub -1"))?;
+        match self.plan().patch_of_quad[quad as usize] {
+            NONE => Err(error("the face is not drawn: it is a hole, or at the boundary under the rule none")),
+            patch_id => Ok(SampleRequest { patch_id, u: u as f32, v: v as f32 }),
+        }
+    }
+
+    /// Raw output of the sampling kernel: position, du, dv, normal of each request, in cage space.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn evaluate(&self, requests: &[SampleRequest]) -> Result<Vec<f32>, EngineError> {
+        let device = self.engine().device();
+        if requests.is_empty() {
+            return Ok(Vec::new());
+        }
+        let size = requests.len() as u64 * u64::from(SAMPLE_FLOATS) * 4;
+        let (usage, memory) = (BufferUsage::STORAGE, Memory::Readback);
+        let output = device.buffer(&BufferDesc { name: "samples", size, usage, memory })?;
+        let bindings = self
+            .buffers()
+            .patches
+            .clone()
+            .with(binding::REQUESTS, &device.upload("sample requests", BufferUsage::STORAGE, requests)?)
+            .with(binding::SAMPLES, &output);
+        let count = requests.len() as u32;
+        let mut recording = Recording::new();
+        let push = KernelPush { count, first: 0, old_distance: 0 };
+        Kernel { shader: "evaluate/sample.comp", bindings: &bindings, push, threads: count }
+            .record(self.engine(), &mut recording)?;
+        device.run(&recording)?;
+        Ok(output.read(0..size)?)
+    }
+
+    fn finish(&self, request: &SampleRequest, values: &[f32]) -> Sample {
+        let vector = |i: usize| Vec3::from_slice(&values[3 * i..]);
+        let (du, dv) = (self.space().leave_vector(vector(1)), self.space().leave_vector(vector(2)));
+        let [du, dv] = self.locate(request.patch_id).derivatives(du, dv);
+        let record = &self.plan().patches[request.patch_id as usize];
+        Sample {
+            position: self.space().leave(vector(0)),
+            du,
+            dv,
+            normal: vector(3).as_dvec3(),
+            irregular: record.is_extraordinary() && request.u == 0.0 && request.v == 0.0,
+        }
+    }
+}

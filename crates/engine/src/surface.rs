@@ -1,0 +1,207 @@
+//! A cage on the device: its tables, its points, and the passes that bring them up to date.
+
+use glam::DVec3;
+use osculate_cage::{BoundaryRule, Cage};
+use osculate_gpu::Recording;
+use osculate_shaders::constant::GREGORY_POINTS;
+use osculate_shaders::layout::KernelPush;
+use osculate_subdiv::{PatchLocation, PlanDesc, SurfacePlan};
+
+use crate::buffers::SurfaceBuffers;
+use crate::kernels::Kernel;
+use crate::{CageSpace, Engine, EngineError, Scheme};
+
+/// How to make a surface of a cage.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SurfaceDesc {
+    /// Scheme of the patches at extraordinary vertices.
+    pub scheme: Scheme,
+    /// Boundary rule; `None` takes that of the file's tags, else edge-and-corner.
+    pub boundary: Option<BoundaryRule>,
+}
+
+/// A cage on the device, ready to be drawn.
+pub struct Surface {
+    engine: Engine,
+    plan: SurfacePlan,
+    space: CageSpace,
+    scheme: Scheme,
+    buffers: SurfaceBuffers,
+    cage_edge_count: u32,
+}
+
+impl Surface {
+    /// Builds the tables of a cage, uploads them, and computes all points and records.
+    ///
+    /// # Errors
+    /// If the cage is too large for 32-bit indices or for the device, no face is left to draw, or the device fails.
+    pub fn new(engine: &Engine, cage: &Cage, desc: &SurfaceDesc) -> Result<Self, EngineError> {
+        let plan = SurfacePlan::build(cage, &PlanDesc { boundary: desc.boundary })?;
+        let topology = cage.topology();
+        let edges: Vec<[u32; 2]> =
+            topology.edge_half_edges().iter().map(|&h| [topology.origin(h), topology.target(h)]).collect();
+        let surface = Self {
+            buffers: SurfaceBuffers::new(engine.device(), &plan, &edges)?,
+            engine: engine.clone(),
+            plan,
+            space: CageSpace::new(cage.bounds()),
+            scheme: desc.scheme,
+            cage_edge_count: edges.len() as u32,
+        };
+        surface.set_points(cage.positions())?;
+        Ok(surface)
+    }
+
+    /// Moves the cage: uploads its points and recomputes everything that follows from them. The space that the device computes in stays that of
+    /// the first points.
+    ///
+    /// # Errors
+    /// If there are not as many points as the cage has, or the device fails.
+    pub fn set_points(&self, points: &[DVec3]) -> Result<(), EngineError> {
+        self.write_points(points)?;
+        let mut recording = Recording::new();
+        self.record_update(&mut recording)?;
+        self.engine.device().submit(&recording)?.wait()?;
+        Ok(())
+    }
+
+    /// Puts new points where [`Self::record_update`] takes them from.
+    pub(crate) fn write_points(&self, points: &[DVec3]) -> Result<(), EngineError> {
+        let expected = (self.buffers.staging.size() / 12) as usize;
+        if points.len() != expected {
+            return Err(EngineError::PointCount { expected, found: points.len() });
+        }
+        let packed: Vec<[f32; 3]> = points.iter().map(|&p| self.space.enter(p).to_array()).collect();
+        self.buffers.staging.write(0, &packed)?;
+        Ok(())
+    }
+
+    /// Adds the passes that compute refined points, phantom points, records and coefficients from the cage's points.
+    ///
+    /// # Errors
+    /// If a pipeline cannot be made.
+    pub fn record_update(&self, recording: &mut Recording) -> Result<(), EngineError> {
+        let (plan, buffers) = (&self.plan, &self.buffers);
+        recording.copy_buffer(&buffers.staging, 0..buffers.staging.size(), &buffers.points, 0);
+        for level in 0..plan.levels.len() {
+            self.record_level(level, recording)?;
+        }
+        let count = |n: usize| n as u32;
+        let kernels = [
+            ("records/phantom.comp", &buffers.phantom, count(plan.reflections.len()), plan.first_phantom, 1),
+            ("records/vertex_regular.comp", &buffers.vertex_regular, count(plan.vertex_records.regular.len()), 0, 1),
+            (
+                "records/vertex_general.comp",
+                &buffers.vertex_general,
+                count(plan.vertex_records.general.len()),
+                count(plan.vertex_records.regular.len()),
+                1,
+            ),
+            ("records/edge_regular.comp", &buffers.edge_regular, count(plan.edge_records.regular.len()), 0, 1),
+            (
+                "records/edge_general.comp",
+                &buffers.edge_general,
+                count(plan.edge_records.general.len()),
+                count(plan.edge_records.regular.len()),
+                8,
+            ),
+            ("records/coefficients.comp", &buffers.coefficients, count(plan.coefficients.len()), 0, GREGORY_POINTS),
+        ];
+        for (shader, bindings, count, first, threads_each) in kernels {
+            let push = KernelPush { count, first, old_distance: 0 };
+            Kernel { shader, bindings, push, threads: count * threads_each }.record(&self.engine, recording)?;
+        }
+        Ok(())
+    }
+
+    /// The three kernels of a refinement step. Faces run through their own kernel or, all being quads, through that of edges.
+    fn record_level(&self, level: usize, recording: &mut Recording) -> Result<(), EngineError> {
+        let (tables, buffers) = (&self.plan.levels[level], &self.buffers.levels[level]);
+        let (faces, edges, vertices) =
+            (tables.face_count() as u32, tables.edge_count() as u32, tables.vertex_count() as u32);
+        let face_shader = if tables.quads { "subdivide/edge.comp" } else { "subdivide/face.comp" };
+        let first_edge = tables.first_new + faces;
+        for (shader, bindings, count, first) in [
+            (face_shader, &buffers.face, faces, tables.first_new),
+            ("subdivide/edge.comp", &buffers.edge, edges, first_edge),
+            ("subdivide/vertex.comp", &buffers.vertex, vertices, first_edge + edges),
+        ] {
+            let push = KernelPush { count, first, old_distance: tables.old_distance() };
+            Kernel { shader, bindings, push, threads: count }.record(&self.engine, recording)?;
+        }
+        Ok(())
+    }
+
+    /// The engine it lives on.
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// Its tables and patches.
+    pub fn plan(&self) -> &SurfacePlan {
+        &self.plan
+    }
+
+    /// Its scheme.
+    pub fn scheme(&self) -> Scheme {
+        self.scheme
+    }
+
+    /// The coordinates that the device computes in.
+    pub fn space(&self) -> &CageSpace {
+        &self.space
+    }
+
+    /// Bytes of its tables, points and records on the device.
+    pub fn bytes(&self) -> u64 {
+        self.buffers.bytes
+    }
+
+    /// Where a patch lies on the cage.
+    ///
+    /// # Panics
+    /// If there is no such patch.
+    pub fn locate(&self, patch: u32) -> PatchLocation {
+        self.plan.locator.locate(self.plan.quads[patch as usize])
+    }
+
+    /// All points on the device, in cage space: the cage's, those of each level, phantom points. For tests and tools.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn read_points(&self) -> Result<Vec<[f32; 3]>, EngineError> {
+        Ok(self.engine.device().download(&self.buffers.points, ..)?)
+    }
+
+    /// All vertex records: position and normal of each, in cage space. For tests and tools.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn read_vertex_records(&self) -> Result<Vec<[f32; 3]>, EngineError> {
+        Ok(self.engine.device().download(&self.buffers.vertex_records, ..)?)
+    }
+
+    /// All edge records: eight control points of each, in cage space. For tests and tools.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn read_edge_records(&self) -> Result<Vec<[f32; 3]>, EngineError> {
+        Ok(self.engine.device().download(&self.buffers.edge_records, ..)?)
+    }
+
+    /// Twenty Gregory points of each patch in the coefficient buffer, in cage space. For tests and tools.
+    ///
+    /// # Errors
+    /// If the device fails.
+    pub fn read_coefficients(&self) -> Result<Vec<[f32; 3]>, EngineError> {
+        Ok(self.engine.device().download(&self.buffers.gregory_points, ..)?)
+    }
+
+    pub(crate) fn buffers(&self) -> &SurfaceBuffers {
+        &self.buffers
+    }
+
+    pub(crate) fn cage_edge_count(&self) -> u32 {
+        self.cage_edge_count
+    }
+}

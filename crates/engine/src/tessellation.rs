@@ -1,0 +1,80 @@
+//! How finely surfaces are tessellated.
+
+use crate::{Camera, EngineError};
+
+/// How the tessellator places vertices on an edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Spacing {
+    /// Equal segments; a fractional level is rounded up.
+    #[default]
+    Equal,
+    /// An odd number of segments, two of which grow from nothing as the level rises.
+    Odd,
+    /// An even number of segments, likewise.
+    Even,
+}
+
+impl Spacing {
+    /// The variant of evaluation shaders with this spacing.
+    pub(crate) fn variant(self) -> &'static str {
+        match self {
+            Self::Equal => "equal",
+            Self::Odd => "odd",
+            Self::Even => "even",
+        }
+    }
+}
+
+/// Tessellation factors of patch edges.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Factors {
+    /// The same level, 1 to 64, for all.
+    Uniform(f32),
+    /// As many segments as make edges of about `pixels` pixels in a picture of that height, 1 to 64.
+    Adaptive {
+        /// Length of a segment in pixels.
+        pixels: f32,
+        /// Where it is looked at from.
+        camera: Camera,
+        /// Height of the picture in pixels.
+        height: u32,
+    },
+}
+
+/// How finely surfaces are tessellated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tessellation {
+    /// Factors of patch edges.
+    pub factors: Factors,
+    /// Spacing of the vertices.
+    pub spacing: Spacing,
+}
+
+impl Default for Tessellation {
+    fn default() -> Self {
+        Self { factors: Factors::Uniform(8.0), spacing: Spacing::Equal }
+    }
+}
+
+impl Tessellation {
+    /// The same level for all edges, equally spaced.
+    pub fn uniform(level: f32) -> Self {
+        Self { factors: Factors::Uniform(level), spacing: Spacing::Equal }
+    }
+
+    /// Most segments that an edge can get.
+    pub(crate) fn max_segments(&self) -> Result<u32, EngineError> {
+        match self.factors {
+            Factors::Uniform(level) if (1.0..=64.0).contains(&level) => {
+                let whole = level.ceil() as u32;
+                Ok(match self.spacing {
+                    Spacing::Equal => whole,
+                    Spacing::Odd => (whole | 1).min(64),
+                    Spacing::Even => whole + (whole & 1),
+                })
+            }
+            Factors::Uniform(level) => Err(EngineError::Level { level }),
+            Factors::Adaptive { .. } => Ok(64),
+        }
+    }
+}

@@ -1,0 +1,4 @@
+//! All cases that need more than one crate, in one program so that they link once and share a device.
+
+mod subdivision;
+mod watertight;
