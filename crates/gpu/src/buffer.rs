@@ -313,11 +313,13 @@ impl std::fmt::Debug for Buffer {
 }
 
 fn usage_flags(usage: BufferUsage) -> vk::BufferUsageFlags {
+    let capture = vk::BufferUsageFlags::TRANSFORM_FEEDBACK_BUFFER_EXT
+        | vk::BufferUsageFlags::TRANSFORM_FEEDBACK_COUNTER_BUFFER_EXT;
     let table = [
         (BufferUsage::STORAGE, vk::BufferUsageFlags::STORAGE_BUFFER),
         (BufferUsage::UNIFORM, vk::BufferUsageFlags::UNIFORM_BUFFER),
         (BufferUsage::INDEX, vk::BufferUsageFlags::INDEX_BUFFER),
-        (BufferUsage::CAPTURE, vk::BufferUsageFlags::TRANSFORM_FEEDBACK_BUFFER_EXT),
+        (BufferUsage::CAPTURE, capture),
     ];
     let copies = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
     table.into_iter().filter(|(one, _)| usage.contains(*one)).fold(copies, |flags, (_, flag)| flags | flag)

@@ -2,14 +2,14 @@
 
 use std::ffi::CString;
 
-use ash::vk;
+use ash::{ext::transform_feedback::DeviceFn, vk};
 
 use crate::{
-    ColorTarget, DepthTarget, Device, Format, Image, Vertices,
+    CapturePass, ColorTarget, DepthTarget, Device, Format, Image, Vertices,
     barrier::{Barriers, Scope},
     image::whole,
     layout::descriptor_type,
-    plan::{Call, DrawCall, Kept, Step, Work},
+    plan::{Call, Descriptor, DrawCall, Kept, Step, Work, runs},
     query::Queries,
 };
 
@@ -45,9 +45,14 @@ impl<'a> Encoder<'a> {
         for ((index, step), barriers) in (0..).zip(steps).zip(barriers) {
             self.begin_label(&step.name);
             self.barriers(barriers);
-            self.begin_statistics(index);
+            let statistics = self.queries.statistics(index);
+            if let Some((pool, query)) = statistics {
+                self.begin_query(pool, query);
+            }
             self.work(index, &step.work);
-            self.end_statistics(index);
+            if let Some((pool, query)) = statistics {
+                self.end_query(pool, query);
+            }
             self.end_label();
             self.timestamp(index + 1);
         }
@@ -62,74 +67,72 @@ impl<'a> Encoder<'a> {
                 self.draws(draws);
                 self.end_rendering();
             }
-            Work::Capture { pass, size, draws } => self.capture(index, pass.buffer.raw(), pass.offset, *size, draws),
+            Work::Capture { pass, size, draws, counter } => self.capture(index, pass, *size, draws, *counter),
             Work::CopyBuffer { source, target, region } => self.copy_buffer(*source, *target, *region),
             Work::CopyImage { image, buffer } => self.copy_image(image, *buffer),
         }
     }
 
     fn dispatch(&self, call: &Call<'_>, [x, y, z]: [u32; 3]) {
-        self.bind(call);
+        self.bind_pipeline(call);
+        self.bind_resources(call);
         // SAFETY: see `Encoder`; pipeline, descriptors and push constants were just set, and the counts are within limits.
         unsafe { self.device.raw().cmd_dispatch(self.commands, x, y, z) }
     }
 
     fn draws(&self, draws: &[DrawCall<'_>]) {
-        for draw in draws {
-            self.bind(&draw.call);
-            let (first_instance, instances) = (draw.instances.start, draw.instances.len() as u32);
-            match draw.vertices {
-                // SAFETY: see `Encoder`; pipeline, descriptors and push constants were just set.
-                Vertices::Range(range) => unsafe {
-                    self.device.raw().cmd_draw(
-                        self.commands,
-                        range.len() as u32,
-                        instances,
-                        range.start,
-                        first_instance,
-                    );
-                },
-                // SAFETY: as above; the range lies within the index buffer, and vertices come from storage buffers with
-                // robust access, so that any index is harmless.
-                Vertices::Indexed { indices, range } => unsafe {
-                    let raw = self.device.raw();
-                    raw.cmd_bind_index_buffer(self.commands, indices.raw(), 0, vk::IndexType::UINT32);
-                    raw.cmd_draw_indexed(self.commands, range.len() as u32, instances, range.start, 0, first_instance);
-                },
-            }
+        for run in runs(draws) {
+            self.bind_pipeline(&run[0].call);
+            run.iter().for_each(|draw| self.draw(draw));
         }
     }
 
-    /// Sets pipeline, buffers and push constants, where they differ from those of the draw before.
-    fn bind(&self, call: &Call<'_>) {
-        let (raw, layout) = (self.device.raw(), call.pipeline.layout.raw.raw);
-        if let Some(descriptors) = &call.descriptors {
+    /// Draws with the pipeline that is bound.
+    fn draw(&self, draw: &DrawCall<'_>) {
+        self.bind_resources(&draw.call);
+        let (first_instance, instances) = (draw.instances.start, draw.instances.len() as u32);
+        match draw.vertices {
+            // SAFETY: see `Encoder`; pipeline, descriptors and push constants were just set.
+            Vertices::Range(range) => unsafe {
+                self.device.raw().cmd_draw(self.commands, range.len() as u32, instances, range.start, first_instance);
+            },
+            // SAFETY: as above; the range lies within the index buffer, and vertices come from storage buffers with robust
+            // access, so that any index is harmless.
+            Vertices::Indexed { indices, range } => unsafe {
+                let raw = self.device.raw();
+                raw.cmd_bind_index_buffer(self.commands, indices.raw(), 0, vk::IndexType::UINT32);
+                raw.cmd_draw_indexed(self.commands, range.len() as u32, instances, range.start, 0, first_instance);
+            },
+        }
+    }
+
+    fn bind_pipeline(&self, call: &Call<'_>) {
+        // SAFETY: see `Encoder`; no capture is in progress.
+        unsafe {
+            self.device.raw().cmd_bind_pipeline(self.commands, call.pipeline.bind_point, call.pipeline.raw.raw);
+        }
+    }
+
+    /// Sets buffers, where they differ from those of the call before, and push constants.
+    fn bind_resources(&self, call: &Call<'_>) {
+        let layout = call.pipeline.layout.raw.raw;
+        if let Some(descriptors) = call.descriptors.as_deref().filter(|descriptors| !descriptors.is_empty()) {
             let infos: Vec<[vk::DescriptorBufferInfo; 1]> = descriptors
                 .iter()
                 .map(|one| [vk::DescriptorBufferInfo { buffer: one.buffer, offset: one.offset, range: one.range }])
                 .collect();
-            let write = |(one, info): (&crate::plan::Descriptor, &'_ [vk::DescriptorBufferInfo; 1])| {
-                let write = vk::WriteDescriptorSet::default().dst_binding(one.binding).descriptor_count(1);
-                vk::WriteDescriptorSet {
-                    p_buffer_info: info.as_ptr(),
-                    ..write.descriptor_type(descriptor_type(one.kind))
-                }
-            };
-            let writes: Vec<_> = descriptors.iter().zip(&infos).map(write).collect();
-            // SAFETY: see `Encoder`; `infos`, which the writes point to, lives across the call, and the descriptors are those
-            // of the pipeline's own layout.
+            let writes: Vec<_> =
+                descriptors.iter().zip(&infos).map(|(one, info)| descriptor_write(one, info)).collect();
+            let functions = &self.device.shared.push_descriptor;
+            // SAFETY: see `Encoder`; the descriptors are those of the pipeline's own layout.
             unsafe {
-                raw.cmd_bind_pipeline(self.commands, call.pipeline.bind_point, call.pipeline.raw.raw);
-                if !writes.is_empty() {
-                    let functions = &self.device.shared.push_descriptor;
-                    functions.cmd_push_descriptor_set(self.commands, call.pipeline.bind_point, layout, 0, &writes);
-                }
+                functions.cmd_push_descriptor_set(self.commands, call.pipeline.bind_point, layout, 0, &writes);
             }
         }
         if !call.push.is_empty() {
             let stages = call.pipeline.interface().push_stages;
             // SAFETY: see `Encoder`; the bytes are exactly those of the layout's range.
-            unsafe { raw.cmd_push_constants(self.commands, layout, stages, 0, call.push) }
+            unsafe { self.device.raw().cmd_push_constants(self.commands, layout, stages, 0, call.push) }
         }
     }
 
@@ -158,39 +161,48 @@ impl<'a> Encoder<'a> {
         unsafe { self.device.raw().cmd_end_rendering(self.commands) }
     }
 
-    fn capture(&self, index: u32, buffer: vk::Buffer, offset: u64, size: u64, draws: &[DrawCall<'_>]) {
-        // `plan` refuses capture passes without the extension, since no buffer can then be made for them.
+    /// Captures draws one behind the other. No pipeline may be bound while a capture is in progress, so that it pauses where
+    /// the pipeline changes and goes on from a counter.
+    fn capture(&self, index: u32, pass: &CapturePass, size: u64, draws: &[DrawCall<'_>], counter: Option<vk::Buffer>) {
+        // Without the extension there is no buffer to capture into, so that `plan` has refused the pass.
         let Some(feedback) = &self.device.shared.transform_feedback else { return };
-        let functions = feedback.fp();
         let query = self.queries.capture(index);
-        let raw = self.device.raw();
-        self.begin_rendering([1, 1], None, None);
         if let Some((pool, query)) = query {
-            // SAFETY: see `Encoder`; the query was reset and belongs to this pass alone.
-            unsafe { raw.cmd_begin_query(self.commands, pool, query, vk::QueryControlFlags::empty()) }
+            self.begin_query(pool, query);
         }
-        // SAFETY: see `Encoder`; the buffer has the usage, offset and size lie within it; no counter buffers are passed.
+        for (part, run) in runs(draws).enumerate() {
+            if part > 0 {
+                self.barrier(&vk::DependencyInfo::default().memory_barriers(&[capture_pause()]));
+            }
+            self.begin_rendering([1, 1], None, None);
+            self.bind_pipeline(&run[0].call);
+            self.begin_capture(feedback.fp(), pass, size, counter.filter(|_| part > 0));
+            run.iter().for_each(|draw| self.draw(draw));
+            self.end_capture(feedback.fp(), counter);
+            self.end_rendering();
+        }
+        if let Some((pool, query)) = query {
+            self.end_query(pool, query);
+        }
+    }
+
+    /// Begins or, from a counter, resumes a capture.
+    fn begin_capture(&self, functions: &DeviceFn, pass: &CapturePass, size: u64, counter: Option<vk::Buffer>) {
+        let (buffer, offset) = (pass.buffer.raw(), pass.offset);
+        let (count, counters) = counter_array(counter.as_ref());
+        // SAFETY: see `Encoder`; buffer and counter have the usage; offset and size lie within the buffer; rendering has begun
+        // and a pipeline that captures is bound. A counter has been written by the end of an earlier part.
         unsafe {
             (functions.cmd_bind_transform_feedback_buffers_ext)(self.commands, 0, 1, &buffer, &offset, &size);
+            (functions.cmd_begin_transform_feedback_ext)(self.commands, 0, count, counters, std::ptr::null());
         }
-        if let Some(first) = draws.first() {
-            // A pipeline must be bound before capture begins.
-            self.bind(&first.call);
-            // SAFETY: as above; rendering has begun and the bound pipeline captures.
-            unsafe {
-                (functions.cmd_begin_transform_feedback_ext)(self.commands, 0, 0, std::ptr::null(), std::ptr::null());
-            }
-            self.draws(draws);
-            // SAFETY: as above; capture has begun.
-            unsafe {
-                (functions.cmd_end_transform_feedback_ext)(self.commands, 0, 0, std::ptr::null(), std::ptr::null());
-            }
-        }
-        if let Some((pool, query)) = query {
-            // SAFETY: see `Encoder`; the query has begun.
-            unsafe { raw.cmd_end_query(self.commands, pool, query) }
-        }
-        self.end_rendering();
+    }
+
+    /// Ends a capture, or pauses it with a counter.
+    fn end_capture(&self, functions: &DeviceFn, counter: Option<vk::Buffer>) {
+        let (count, counters) = counter_array(counter.as_ref());
+        // SAFETY: see `Encoder`; capture has begun; the counter, if any, has the usage and four bytes.
+        unsafe { (functions.cmd_end_transform_feedback_ext)(self.commands, 0, count, counters, std::ptr::null()) }
     }
 
     fn copy_buffer(&self, source: vk::Buffer, target: vk::Buffer, region: vk::BufferCopy2<'_>) {
@@ -275,18 +287,14 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    fn begin_statistics(&self, index: u32) {
-        if let Some((pool, query)) = self.queries.statistics(index) {
-            // SAFETY: see `Encoder`; the query was reset and belongs to this pass alone.
-            unsafe { self.device.raw().cmd_begin_query(self.commands, pool, query, vk::QueryControlFlags::empty()) }
-        }
+    fn begin_query(&self, pool: vk::QueryPool, query: u32) {
+        // SAFETY: see `Encoder`; the query was reset and belongs to one pass alone.
+        unsafe { self.device.raw().cmd_begin_query(self.commands, pool, query, vk::QueryControlFlags::empty()) }
     }
 
-    fn end_statistics(&self, index: u32) {
-        if let Some((pool, query)) = self.queries.statistics(index) {
-            // SAFETY: see `Encoder`; the query has begun.
-            unsafe { self.device.raw().cmd_end_query(self.commands, pool, query) }
-        }
+    fn end_query(&self, pool: vk::QueryPool, query: u32) {
+        // SAFETY: see `Encoder`; the query has begun.
+        unsafe { self.device.raw().cmd_end_query(self.commands, pool, query) }
     }
 
     fn begin_label(&self, name: &str) {
@@ -303,6 +311,26 @@ impl<'a> Encoder<'a> {
             unsafe { debug.cmd_end_debug_utils_label(self.commands) }
         }
     }
+}
+
+/// What stands between two parts of a capture: the second continues where the first ends, by the counter.
+fn capture_pause() -> vk::MemoryBarrier2<'static> {
+    let stage = vk::PipelineStageFlags2::TRANSFORM_FEEDBACK_EXT;
+    let writes =
+        vk::AccessFlags2::TRANSFORM_FEEDBACK_WRITE_EXT | vk::AccessFlags2::TRANSFORM_FEEDBACK_COUNTER_WRITE_EXT;
+    let source = Scope::new(stage, writes);
+    let reads = vk::AccessFlags2::TRANSFORM_FEEDBACK_COUNTER_READ_EXT;
+    memory_barrier(source, Scope::new(stage | vk::PipelineStageFlags2::DRAW_INDIRECT, writes | reads))
+}
+
+/// A counter as the functions of transform feedback take it: an array of at most one.
+fn counter_array(counter: Option<&vk::Buffer>) -> (u32, *const vk::Buffer) {
+    counter.map_or((0, std::ptr::null()), |counter| (1, std::ptr::from_ref(counter)))
+}
+
+fn descriptor_write<'i>(one: &Descriptor, info: &'i [vk::DescriptorBufferInfo; 1]) -> vk::WriteDescriptorSet<'i> {
+    let write = vk::WriteDescriptorSet::default().dst_binding(one.binding);
+    write.descriptor_type(descriptor_type(one.kind)).buffer_info(info)
 }
 
 fn memory_barrier(source: Scope, destination: Scope) -> vk::MemoryBarrier2<'static> {

@@ -6,8 +6,8 @@ use std::{collections::HashMap, ops::Range, sync::Arc};
 use ash::vk;
 
 use crate::{
-    Bindings, Buffer, BufferKind, BufferUsage, CapturePass, ComputePass, Device, Draw, GpuError, Image, ImageUsage,
-    Recording, RenderPass, Vertices,
+    Bindings, Buffer, BufferDesc, BufferKind, BufferUsage, CapturePass, ComputePass, Device, Draw, GpuError, Image,
+    ImageUsage, Memory, Recording, RenderPass, Vertices,
     barrier::{Scope, Use, Uses},
     bindings::Bound,
     graphics::Targets,
@@ -43,7 +43,7 @@ pub(crate) struct Step<'a> {
 pub(crate) enum Work<'a> {
     Dispatch { call: Call<'a>, groups: [u32; 3] },
     Render { pass: &'a RenderPass, draws: Vec<DrawCall<'a>> },
-    Capture { pass: &'a CapturePass, size: u64, draws: Vec<DrawCall<'a>> },
+    Capture { pass: &'a CapturePass, size: u64, draws: Vec<DrawCall<'a>>, counter: Option<vk::Buffer> },
     CopyBuffer { source: vk::Buffer, target: vk::Buffer, region: vk::BufferCopy2<'static> },
     CopyImage { image: &'a Image, buffer: vk::Buffer },
 }
@@ -51,7 +51,7 @@ pub(crate) enum Work<'a> {
 /// A pipeline with what is bound to it.
 pub(crate) struct Call<'a> {
     pub(crate) pipeline: &'a Pipeline,
-    /// What to bind; `None` if pipeline and buffers are those of the draw before.
+    /// What to bind; `None` if pipeline and buffers are those of the call before.
     pub(crate) descriptors: Option<Vec<Descriptor>>,
     pub(crate) push: &'a [u8],
 }
@@ -61,6 +61,11 @@ pub(crate) struct DrawCall<'a> {
     pub(crate) call: Call<'a>,
     pub(crate) vertices: &'a Vertices,
     pub(crate) instances: Range<u32>,
+}
+
+/// Draws, cut where the pipeline changes.
+pub(crate) fn runs<'d, 'a>(draws: &'d [DrawCall<'a>]) -> impl Iterator<Item = &'d [DrawCall<'a>]> {
+    draws.chunk_by(|one, next| std::ptr::eq(one.call.pipeline, next.call.pipeline))
 }
 
 /// A buffer at a binding number.
@@ -158,10 +163,11 @@ impl Planner<'_> {
         {
             return Err(self.refuse("its size is zero or larger than a target"));
         }
-        if let (Some(color), Some(resolve)) = (color, resolve) {
-            if color.samples() == 1 || resolve.samples() != 1 || color.format() != resolve.format() {
-                return Err(self.refuse("a resolve goes from several samples to one, within one format"));
-            }
+        let resolves = |color: &Image, resolve: &Image| {
+            color.samples() > 1 && resolve.samples() == 1 && color.format() == resolve.format()
+        };
+        if color.zip(resolve).is_some_and(|(color, resolve)| !resolves(color, resolve)) {
+            return Err(self.refuse("a resolve goes from several samples to one, within one format"));
         }
         Ok(Targets {
             color: color.map(Image::format),
@@ -210,7 +216,21 @@ impl Planner<'_> {
             Scope::new(vk::PipelineStageFlags2::TRANSFORM_FEEDBACK_EXT, vk::AccessFlags2::TRANSFORM_FEEDBACK_WRITE_EXT);
         self.touch_buffer(&pass.buffer, Scope::default(), write)?;
         let size = (pass.buffer.size() - pass.offset).min(self.device.info().limits.max_capture_buffer);
-        Ok(Work::Capture { pass, size, draws })
+        let counter = self.counter(&draws)?;
+        Ok(Work::Capture { pass, size, draws, counter })
+    }
+
+    /// Where a capture remembers its place while the pipeline changes, if it does.
+    fn counter(&mut self, draws: &[DrawCall<'_>]) -> Result<Option<vk::Buffer>, GpuError> {
+        if runs(draws).count() < 2 {
+            return Ok(None);
+        }
+        let usage = BufferUsage::CAPTURE;
+        let counter =
+            self.device.buffer(&BufferDesc { name: "capture counter", size: 4, usage, memory: Memory::Device })?;
+        let raw = counter.raw();
+        self.kept.buffers.insert(counter.id(), counter);
+        Ok(Some(raw))
     }
 
     /// Resolves draws whose pipelines pass the test of their targets.

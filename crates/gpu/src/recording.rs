@@ -94,7 +94,8 @@ pub struct RenderPass {
 
 /// Captures the primitives of draws into a buffer by transform feedback, and draws nothing.
 ///
-/// Primitives lie in the order of the draws, three own vertices per triangle. Needs
+/// Primitives lie in the order of the draws, three own vertices per triangle, without gaps, also where the pipeline changes.
+/// Needs
 /// [`Features::transform_feedback`](crate::Features::transform_feedback) and pipelines with rasterizer discard.
 #[derive(Clone, Debug)]
 pub struct CapturePass {

@@ -1,0 +1,309 @@
+//! Reading of a parsed module.
+
+use std::collections::{HashMap, HashSet};
+
+use rspirv::{
+    dr::{Instruction, Module, Operand},
+    spirv::{BuiltIn, Decoration, ExecutionMode, ExecutionModel, Op, StorageClass, Word},
+};
+
+use super::{BufferBinding, BufferKind, Extent, ReflectError, Reflection, SpecConstant, Stage};
+
+/// Deepest nesting of types that is followed; a malformed module may nest a type in itself.
+const MAX_DEPTH: u32 = 32;
+
+/// One decoration of an id or of a member of a structure.
+struct Decorated {
+    member: Option<u32>,
+    decoration: Decoration,
+    value: Option<u32>,
+}
+
+/// A module with its ids looked up.
+pub(super) struct Reader<'a> {
+    module: &'a Module,
+    names: HashMap<Word, &'a str>,
+    decorations: HashMap<Word, Vec<Decorated>>,
+    globals: HashMap<Word, &'a Instruction>,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(module: &'a Module) -> Self {
+        let mut decorations: HashMap<Word, Vec<Decorated>> = HashMap::new();
+        for (target, decorated) in module.annotations.iter().filter_map(decorated) {
+            decorations.entry(target).or_default().push(decorated);
+        }
+        let names = module.debug_names.iter().filter_map(|one| match one.operands.as_slice() {
+            [Operand::IdRef(id), Operand::LiteralString(name)] if one.class.opcode == Op::Name => {
+                Some((*id, name.as_str()))
+            }
+            _ => None,
+        });
+        let globals = module.types_global_values.iter().filter_map(|one| Some((one.result_id?, one)));
+        Self { module, names: names.collect(), decorations, globals: globals.collect() }
+    }
+
+    pub(super) fn read(&self) -> Result<Reflection, ReflectError> {
+        let [entry] = self.module.entry_points.as_slice() else {
+            return Err(ReflectError::EntryPoints { count: self.module.entry_points.len() });
+        };
+        let (stage, entry_point) = match entry.operands.as_slice() {
+            [Operand::ExecutionModel(model), _, Operand::LiteralString(name), ..] => (stage(*model)?, name.clone()),
+            _ => return Err(malformed("the entry point has no name")),
+        };
+        Ok(Reflection {
+            stage,
+            entry_point,
+            buffers: self.buffers()?,
+            push_constant_size: self.push_constant_size()?,
+            specialization: self.specialization(),
+            local_size: if stage == Stage::Compute { Some(self.local_size()?) } else { None },
+            output_vertices: if stage == Stage::TessellationControl { self.output_vertices() } else { None },
+            capture_stride: self.capture_stride(),
+        })
+    }
+
+    /// Global variables that some function refers to, with storage class and the type they point to.
+    fn variables(&self) -> impl Iterator<Item = Result<(Word, StorageClass, Word), ReflectError>> + '_ {
+        let functions = self.module.functions.iter().flat_map(|function| function.all_inst_iter());
+        let used: HashSet<Word> = functions.flat_map(|one| &one.operands).filter_map(id).collect();
+        let variables = self.module.types_global_values.iter().filter(|one| one.class.opcode == Op::Variable);
+        variables.filter(move |one| one.result_id.is_some_and(|id| used.contains(&id))).map(|one| self.variable(one))
+    }
+
+    fn variable(&self, instruction: &Instruction) -> Result<(Word, StorageClass, Word), ReflectError> {
+        let pointer = instruction.result_type.and_then(|id| self.globals.get(&id));
+        match (instruction.result_id, instruction.operands.first(), pointer.map(|one| one.operands.as_slice())) {
+            (Some(id), Some(Operand::StorageClass(class)), Some([_, Operand::IdRef(pointee)])) => {
+                Ok((id, *class, *pointee))
+            }
+            _ => Err(malformed("a variable without a pointer type")),
+        }
+    }
+
+    fn buffers(&self) -> Result<Vec<BufferBinding>, ReflectError> {
+        let mut buffers: Vec<BufferBinding> = Vec::new();
+        for variable in self.variables() {
+            let (id, class, pointee) = variable?;
+            let Some(buffer) = self.buffer(id, class, pointee)? else { continue };
+            if let Some(other) = buffers.iter().find(|other| other.binding == buffer.binding) {
+                let (first, second) = (other.name.clone(), buffer.name);
+                return Err(ReflectError::Duplicate { binding: buffer.binding, first, second });
+            }
+            buffers.push(buffer);
+        }
+        buffers.sort_by_key(|buffer| buffer.binding);
+        Ok(buffers)
+    }
+
+    /// The buffer that a variable stands for; `None` if it is no resource.
+    fn buffer(&self, id: Word, class: StorageClass, pointee: Word) -> Result<Option<BufferBinding>, ReflectError> {
+        let name = self.block_name(id, pointee);
+        let kind = match class {
+            StorageClass::StorageBuffer => BufferKind::Storage,
+            // SPIR-V before 1.3 marks storage buffers by a decoration of the block.
+            StorageClass::Uniform if self.decoration(pointee, None, Decoration::BufferBlock).is_some() => {
+                BufferKind::Storage
+            }
+            StorageClass::Uniform => BufferKind::Uniform,
+            StorageClass::UniformConstant => {
+                return Err(ReflectError::Resource { name, found: "an image or a sampler" });
+            }
+            _ => return Ok(None),
+        };
+        if self.globals.get(&pointee).is_none_or(|one| one.class.opcode != Op::TypeStruct) {
+            return Err(ReflectError::Resource { name, found: "an array of buffers" });
+        }
+        let set = self.value(id, None, Decoration::DescriptorSet).unwrap_or(0);
+        if set != 0 {
+            return Err(ReflectError::Set { name, set });
+        }
+        let binding = self.value(id, None, Decoration::Binding);
+        let binding = binding.ok_or_else(|| malformed(&format!("{name:?} has no binding number")))?;
+        let reads = !self.everywhere(id, pointee, Decoration::NonReadable);
+        let writes = kind == BufferKind::Storage && !self.everywhere(id, pointee, Decoration::NonWritable);
+        Ok(Some(BufferBinding { binding, kind, reads, writes, name }))
+    }
+
+    /// Whether a variable, or every member of its block, is decorated so.
+    fn everywhere(&self, variable: Word, block: Word, decoration: Decoration) -> bool {
+        let members = self.globals.get(&block).map_or(0, |one| one.operands.len());
+        let every = |member: usize| self.decoration(block, u32::try_from(member).ok(), decoration).is_some();
+        self.decoration(variable, None, decoration).is_some() || (members > 0 && (0..members).all(every))
+    }
+
+    /// The name of a resource: of the block's type, or of the variable if the block has none.
+    fn block_name(&self, variable: Word, block: Word) -> String {
+        let of = |id: Word| self.names.get(&id).filter(|name| !name.is_empty());
+        of(block).or_else(|| of(variable)).map_or_else(|| format!("%{variable}"), |name| (*name).to_owned())
+    }
+
+    fn push_constant_size(&self) -> Result<u32, ReflectError> {
+        let mut size = 0;
+        for variable in self.variables() {
+            let (_, class, pointee) = variable?;
+            if class == StorageClass::PushConstant {
+                size = size.max(self.size(pointee, None, 0)?);
+            }
+        }
+        Ok(size.next_multiple_of(4))
+    }
+
+    /// Size of a type in bytes; `member` is the structure and the index it is a member of, whose decorations give strides.
+    fn size(&self, id: Word, member: Option<(Word, u32)>, depth: u32) -> Result<u32, ReflectError> {
+        let instruction =
+            self.globals.get(&id).filter(|_| depth < MAX_DEPTH).ok_or_else(|| malformed("a type is not defined"))?;
+        let operands = instruction.operands.as_slice();
+        let size = match (instruction.class.opcode, operands) {
+            (Op::TypeInt | Op::TypeFloat, [Operand::LiteralBit32(bits), ..]) => Some(bits / 8),
+            (Op::TypeVector, [Operand::IdRef(part), Operand::LiteralBit32(count)]) => {
+                self.size(*part, None, depth + 1)?.checked_mul(*count)
+            }
+            (Op::TypeMatrix, [_, Operand::LiteralBit32(columns)]) => {
+                let stride = member.and_then(|(block, index)| self.value(block, Some(index), Decoration::MatrixStride));
+                stride.and_then(|stride| stride.checked_mul(*columns))
+            }
+            (Op::TypeArray, [_, Operand::IdRef(length)]) => {
+                let stride = self.value(id, None, Decoration::ArrayStride);
+                stride.zip(self.constant(*length)).and_then(|(stride, length)| stride.checked_mul(length))
+            }
+            (Op::TypeStruct, members) => Some(self.struct_size(id, members, depth)?),
+            _ => None,
+        };
+        size.ok_or_else(|| malformed("push constants of a type without a size"))
+    }
+
+    fn struct_size(&self, block: Word, members: &[Operand], depth: u32) -> Result<u32, ReflectError> {
+        let mut end = 0;
+        for (member, index) in members.iter().filter_map(id).zip(0..) {
+            let offset = self.value(block, Some(index), Decoration::Offset);
+            let size = self.size(member, Some((block, index)), depth + 1)?;
+            let member_end = offset.and_then(|offset| offset.checked_add(size));
+            end = end.max(member_end.ok_or_else(|| malformed("a member of a block has no offset"))?);
+        }
+        Ok(end)
+    }
+
+    fn specialization(&self) -> Vec<SpecConstant> {
+        let constants = self.module.types_global_values.iter().filter_map(|one| {
+            let result = one.result_id?;
+            let id = self.value(result, None, Decoration::SpecId)?;
+            let name = self.names.get(&result).map_or_else(String::new, |name| (*name).to_owned());
+            Some(SpecConstant { id, default: constant_bits(one)?, name })
+        });
+        let mut constants: Vec<SpecConstant> = constants.collect();
+        constants.sort_by_key(|constant| constant.id);
+        constants
+    }
+
+    /// The size of the work group. The built-in constant, where there is one, has precedence over the execution mode.
+    fn local_size(&self) -> Result<[Extent; 3], ReflectError> {
+        let is_size = |one: &&Instruction| {
+            one.result_id
+                .is_some_and(|id| self.value(id, None, Decoration::BuiltIn) == Some(BuiltIn::WorkgroupSize as u32))
+        };
+        let mut modes = self.module.execution_modes.iter().filter_map(|one| match one.operands.as_slice() {
+            [_, Operand::ExecutionMode(ExecutionMode::LocalSize | ExecutionMode::LocalSizeId), sizes @ ..] => {
+                Some(sizes)
+            }
+            _ => None,
+        });
+        let constant = self.module.types_global_values.iter().find(is_size).map(|one| one.operands.as_slice());
+        let sizes =
+            constant.or_else(|| modes.next_back()).ok_or_else(|| malformed("a compute shader without a local size"))?;
+        let sizes: Vec<Extent> = sizes.iter().filter_map(|size| self.extent(size)).collect();
+        sizes.try_into().map_err(|_| malformed("the local size is not three numbers"))
+    }
+
+    fn extent(&self, operand: &Operand) -> Option<Extent> {
+        match operand {
+            Operand::LiteralBit32(value) => Some(Extent::Fixed(*value)),
+            Operand::IdRef(id) => {
+                let default = self.constant(*id)?;
+                let spec = self.value(*id, None, Decoration::SpecId);
+                Some(spec.map_or(Extent::Fixed(default), |id| Extent::Specialized { id, default }))
+            }
+            _ => None,
+        }
+    }
+
+    fn output_vertices(&self) -> Option<u32> {
+        self.module.execution_modes.iter().find_map(|one| match one.operands.as_slice() {
+            [_, Operand::ExecutionMode(ExecutionMode::OutputVertices), Operand::LiteralBit32(count)] => Some(*count),
+            _ => None,
+        })
+    }
+
+    fn capture_stride(&self) -> Option<u32> {
+        let declared = self
+            .module
+            .execution_modes
+            .iter()
+            .any(|one| matches!(one.operands.as_slice(), [_, Operand::ExecutionMode(ExecutionMode::Xfb), ..]));
+        let strides = self.decorations.values().flatten().filter(|one| one.decoration == Decoration::XfbStride);
+        strides.filter_map(|one| one.value).max().filter(|_| declared)
+    }
+
+    /// The value of an integer constant, specialized or not.
+    fn constant(&self, id: Word) -> Option<u32> {
+        self.globals.get(&id).and_then(|one| constant_bits(one))
+    }
+
+    fn decoration(&self, id: Word, member: Option<u32>, decoration: Decoration) -> Option<&Decorated> {
+        self.decorations.get(&id)?.iter().find(|one| one.member == member && one.decoration == decoration)
+    }
+
+    fn value(&self, id: Word, member: Option<u32>, decoration: Decoration) -> Option<u32> {
+        self.decoration(id, member, decoration)?.value
+    }
+}
+
+/// The target and content of a decoration instruction.
+fn decorated(instruction: &Instruction) -> Option<(Word, Decorated)> {
+    let (target, member, rest) = match (instruction.class.opcode, instruction.operands.as_slice()) {
+        (Op::Decorate, [Operand::IdRef(target), rest @ ..]) => (*target, None, rest),
+        (Op::MemberDecorate, [Operand::IdRef(target), Operand::LiteralBit32(member), rest @ ..]) => {
+            (*target, Some(*member), rest)
+        }
+        _ => return None,
+    };
+    let [Operand::Decoration(decoration), values @ ..] = rest else { return None };
+    let value = values.first().and_then(|value| match value {
+        Operand::LiteralBit32(value) => Some(*value),
+        Operand::BuiltIn(built_in) => Some(*built_in as u32),
+        _ => None,
+    });
+    Some((target, Decorated { member, decoration: *decoration, value }))
+}
+
+fn id(operand: &Operand) -> Option<Word> {
+    match operand {
+        Operand::IdRef(id) => Some(*id),
+        _ => None,
+    }
+}
+
+/// The bits of a 32-bit constant.
+fn constant_bits(instruction: &Instruction) -> Option<u32> {
+    match (instruction.class.opcode, instruction.operands.as_slice()) {
+        (Op::ConstantTrue | Op::SpecConstantTrue, _) => Some(1),
+        (Op::ConstantFalse | Op::SpecConstantFalse, _) => Some(0),
+        (Op::Constant | Op::SpecConstant, [Operand::LiteralBit32(bits)]) => Some(*bits),
+        _ => None,
+    }
+}
+
+fn stage(model: ExecutionModel) -> Result<Stage, ReflectError> {
+    match model {
+        ExecutionModel::Vertex => Ok(Stage::Vertex),
+        ExecutionModel::TessellationControl => Ok(Stage::TessellationControl),
+        ExecutionModel::TessellationEvaluation => Ok(Stage::TessellationEvaluation),
+        ExecutionModel::Fragment => Ok(Stage::Fragment),
+        ExecutionModel::GLCompute => Ok(Stage::Compute),
+        other => Err(ReflectError::Stage { stage: format!("{other:?}") }),
+    }
+}
+
+fn malformed(reason: &str) -> ReflectError {
+    ReflectError::Malformed { reason: reason.to_owned() }
+}

@@ -1,0 +1,12 @@
+//! Tests on a real device, with core and synchronization validation: any message fails them.
+//!
+//! They need a Vulkan device and the validation layers. `OSCULATE_DEVICE` chooses among devices, by number or part of a name.
+
+mod capture;
+mod compute;
+mod device;
+mod harness;
+mod reflection;
+mod refusals;
+mod render;
+mod timing;

@@ -1,0 +1,259 @@
+//! Wrong use is an error that names what is wrong, not undefined behaviour and not a validation message.
+
+use osculate_gpu::{
+    Bindings, Buffer, BufferDesc, BufferUsage, CapturePass, ColorTarget, ComputePass, ComputePipelineDesc, DepthState,
+    DepthTarget, Device, Draw, Format, GpuError, GraphicsPipeline, GraphicsPipelineDesc, ImageDesc, ImageUsage, Memory,
+    Recording, RenderPass, Topology, Vertices,
+};
+
+use crate::harness::{bind, compute_pass, compute_pipeline, open, shader, target, with_device};
+
+const COPY: &str = "
+layout(push_constant) uniform Push { uint count; };
+layout(binding = 0) readonly buffer Source { uint source[]; };
+layout(binding = 1) writeonly buffer Target { uint target[]; };
+void main() { if (gl_GlobalInvocationID.x < count) target[gl_GlobalInvocationID.x] = source[gl_GlobalInvocationID.x]; }";
+
+fn recorded(record: impl FnOnce(&mut Recording)) -> Recording {
+    let mut recording = Recording::new();
+    record(&mut recording);
+    recording
+}
+
+/// Submits what `record` records, which must fail with all of `parts` in the message.
+fn refused(device: &Device, parts: &[&str], record: impl FnOnce(&mut Recording)) {
+    let error = device.submit(&recorded(record)).expect_err("this must be refused").to_string();
+    assert!(parts.iter().all(|part| error.contains(part)), "{parts:?} in {error:?}");
+}
+
+fn words(device: &Device, name: &str, usage: BufferUsage) -> Buffer {
+    device.upload(name, usage, &[0u32; 64]).unwrap()
+}
+
+#[test]
+fn bindings_and_push_constants_are_checked() {
+    with_device(|device| {
+        let pipeline = compute_pipeline(device, "copy.comp", COPY);
+        let (storage, index) =
+            (words(device, "words", BufferUsage::STORAGE), words(device, "indices", BufferUsage::INDEX));
+        let pass = |bindings: Bindings, push: Vec<u8>| ComputePass {
+            push,
+            name: "step".to_owned(),
+            ..compute_pass(&pipeline, bindings, 1)
+        };
+        let good = vec![0; 4];
+        let missing = pass(Bindings::new().with(0, &storage), good.clone());
+        refused(device, &["\"step\"", "\"copy.comp\"", "binding 1", "\"Target\""], |r| r.compute(missing));
+        let short = pass(bind(&[&storage, &storage]), vec![]);
+        refused(device, &["\"step\"", "0 bytes", "declares 4"], |r| r.compute(short));
+        let unfit = pass(bind(&[&storage, &index]), good.clone());
+        refused(device, &["\"indices\"", "binding 1"], |r| r.compute(unfit));
+        let beyond = pass(bind(&[&storage]).with_range(1, &storage, 0..1000), good.clone());
+        refused(device, &["\"words\"", "256 bytes", "0..1000"], |r| r.compute(beyond));
+        let empty = pass(bind(&[&storage]).with_range(1, &storage, 8..8), good.clone());
+        refused(device, &["binding 1", "empty"], |r| r.compute(empty));
+        let many = ComputePass { groups: [u32::MAX, 1, 1], ..pass(bind(&[&storage, &storage]), good) };
+        if device.info().limits.max_work_groups[0] < u32::MAX {
+            refused(device, &["work groups", "\"step\""], |r| r.compute(many));
+        }
+    });
+}
+
+#[test]
+fn objects_of_another_device_are_refused() {
+    with_device(|device| {
+        let other = open(false);
+        let theirs = words(&other, "theirs", BufferUsage::STORAGE);
+        let ours = words(device, "ours", BufferUsage::STORAGE);
+        refused(device, &["\"theirs\"", "another device"], |r| r.copy_buffer(&ours, 0..4, &theirs, 0));
+        let pipeline = compute_pipeline(&other, "nothing.comp", "void main() {}");
+        refused(device, &["\"nothing.comp\"", "another device"], |r| r.compute(compute_pass(&pipeline, bind(&[]), 1)));
+        let shader = shader(&other, "theirs.comp", "void main() {}");
+        let desc = ComputePipelineDesc { name: "mixed", shader: &shader, specialization: &[] };
+        assert!(matches!(device.compute_pipeline(&desc), Err(GpuError::PipelineDesc { .. })));
+    });
+}
+
+#[test]
+fn copies_are_checked() {
+    with_device(|device| {
+        let buffer = words(device, "words", BufferUsage::empty());
+        refused(device, &["\"words\"", "256 bytes", "200..300"], |r| r.copy_buffer(&buffer, 200..300, &buffer, 0));
+        refused(device, &["256 bytes", "250..258"], |r| r.copy_buffer(&buffer, 0..8, &buffer, 250));
+        refused(device, &["overlaps"], |r| r.copy_buffer(&buffer, 0..8, &buffer, 4));
+        let image = target(device, "picture", Format::Rgba8Unorm, 1);
+        refused(device, &["\"words\"", "0..1024"], |r| r.copy_image_to_buffer(&image, &buffer));
+        let large = device.upload("large", BufferUsage::empty(), &[0u8; 1024]).unwrap();
+        refused(device, &["nothing was drawn"], |r| r.copy_image_to_buffer(&image, &large));
+    });
+}
+
+#[test]
+fn host_access_is_checked() {
+    with_device(|device| {
+        let make =
+            |memory| device.buffer(&BufferDesc { name: "b", size: 10, usage: BufferUsage::STORAGE, memory }).unwrap();
+        let upload = make(Memory::Upload);
+        upload.write(2, &[1u16; 4]).unwrap();
+        assert!(matches!(upload.write(3, &[1u16; 4]), Err(GpuError::OutOfBounds { .. })));
+        assert!(matches!(upload.write(u64::MAX, &[1u16; 4]), Err(GpuError::OutOfBounds { .. })));
+        assert!(matches!(upload.read::<u8>(..), Err(GpuError::BufferUsage { .. })));
+        let readback = make(Memory::Readback);
+        assert!(matches!(readback.write(0, &[1u8]), Err(GpuError::BufferUsage { .. })));
+        assert_eq!(readback.read::<u32>(2..10).unwrap().len(), 2);
+        assert!(matches!(readback.read::<u32>(..), Err(GpuError::BufferUsage { .. })), "ten bytes are no whole words");
+        assert!(matches!(readback.read::<u8>(5..=10), Err(GpuError::OutOfBounds { .. })));
+        let (start, end) = (7, 3);
+        assert!(matches!(readback.read::<u8>(start..end), Err(GpuError::OutOfBounds { .. })));
+        assert!(matches!(make(Memory::Device).write(0, &[1u8]), Err(GpuError::BufferUsage { .. })));
+    });
+}
+
+#[test]
+fn sizes_beyond_the_devices_limits_are_refused() {
+    with_device(|device| {
+        let size = u64::MAX;
+        let desc = BufferDesc { name: "huge", size, usage: BufferUsage::STORAGE, memory: Memory::Device };
+        assert!(matches!(device.buffer(&desc), Err(GpuError::Limit { .. })));
+        let wide = ImageDesc {
+            name: "wide",
+            size: [1 << 24, 1],
+            format: Format::Rgba8Unorm,
+            samples: 1,
+            usage: ImageUsage::TARGET,
+        };
+        assert!(matches!(device.image(&wide), Err(GpuError::Limit { .. })));
+        for odd in [
+            ImageDesc { size: [0, 4], ..wide },
+            ImageDesc { size: [4, 4], samples: 3, ..wide },
+            ImageDesc { size: [4, 4], usage: ImageUsage::COPY_SRC, ..wide },
+            ImageDesc { size: [4, 4], samples: 4, usage: ImageUsage::TARGET | ImageUsage::COPY_SRC, ..wide },
+        ] {
+            assert!(matches!(device.image(&odd), Err(GpuError::ImageUsage { .. })), "{odd:?}");
+        }
+    });
+}
+
+#[test]
+fn shaders_in_the_wrong_place_are_refused() {
+    with_device(|device| {
+        let vertex = shader(device, "v.vert", "void main() { gl_Position = vec4(0.0); }");
+        let desc = ComputePipelineDesc { name: "p", shader: &vertex, specialization: &[] };
+        let error = device.compute_pipeline(&desc).unwrap_err().to_string();
+        assert!(error.contains("wants a compute shader") && error.contains("\"v.vert\" is a vertex shader"), "{error}");
+        let fragment = Some(&vertex);
+        let desc = GraphicsPipelineDesc { fragment, ..GraphicsPipelineDesc::new("p", &vertex) };
+        assert!(matches!(device.graphics_pipeline(&desc), Err(GpuError::WrongStage { .. })));
+        assert!(matches!(device.shader("no", &[1, 2, 3]), Err(GpuError::Shader { .. })));
+    });
+}
+
+#[test]
+fn contradictory_pipelines_are_refused() {
+    with_device(|device| {
+        let vertex = shader(device, "v.vert", "void main() { gl_Position = vec4(0.0); }");
+        let plain = GraphicsPipelineDesc::new("p", &vertex);
+        for (desc, part) in [
+            (GraphicsPipelineDesc { topology: Topology::Patches, ..plain }, "tessellation"),
+            (GraphicsPipelineDesc { color_format: Some(Format::Depth32Float), ..plain }, "depth format"),
+            (GraphicsPipelineDesc { depth_format: Some(Format::Rgba8Unorm), ..plain }, "depth format"),
+            (GraphicsPipelineDesc { depth: Some(DepthState::default()), ..plain }, "depth state"),
+            (GraphicsPipelineDesc { samples: 3, ..plain }, "3 samples"),
+        ] {
+            let error = device.graphics_pipeline(&desc).unwrap_err().to_string();
+            assert!(error.contains("\"p\"") && error.contains(part), "{error}");
+        }
+        let huge = "layout(local_size_x_id = 0) in; void main() {}";
+        let huge = shader(device, "huge.comp", huge);
+        let desc = ComputePipelineDesc { name: "huge", shader: &huge, specialization: &[(0, 1 << 20)] };
+        assert!(matches!(device.compute_pipeline(&desc), Err(GpuError::Limit { .. })));
+    });
+}
+
+fn simple_pipeline(device: &Device, color: Option<Format>, discard: bool) -> GraphicsPipeline {
+    let vertex = shader(device, "v.vert", "void main() { gl_Position = vec4(0.0); }");
+    let plain = GraphicsPipelineDesc::new("simple", &vertex);
+    let desc = GraphicsPipelineDesc { color_format: color, rasterizer_discard: discard, ..plain };
+    device.graphics_pipeline(&desc).unwrap()
+}
+
+fn draw(pipeline: &GraphicsPipeline, vertices: Vertices) -> Draw {
+    Draw { pipeline: pipeline.clone(), bindings: Bindings::new(), push: vec![], vertices, instances: 0..1 }
+}
+
+#[test]
+fn targets_are_checked() {
+    with_device(|device| {
+        let color = target(device, "color", Format::Rgba8Unorm, 1);
+        let other = target(device, "other", Format::Rgba32Float, 1);
+        let samples = target(device, "samples", Format::Rgba8Unorm, 4);
+        let depth = target(device, "depth", Format::Depth32Float, 1);
+        let clear = Some([0.0; 4]);
+        let pass = |image: &osculate_gpu::Image| RenderPass {
+            name: "draw".to_owned(),
+            color: Some(ColorTarget { image: image.clone(), clear, resolve: None }),
+            depth: None,
+            size: [16, 16],
+            draws: vec![],
+        };
+        refused(device, &["\"draw\"", "neither"], |r| r.render(RenderPass { color: None, ..pass(&color) }));
+        refused(device, &["larger than a target"], |r| r.render(RenderPass { size: [17, 1], ..pass(&color) }));
+        refused(device, &["larger than a target"], |r| r.render(RenderPass { size: [0, 1], ..pass(&color) }));
+        refused(device, &["depth image"], |r| r.render(pass(&depth)));
+        let depth = |image| Some(DepthTarget { image, clear: Some(1.0) });
+        let mixed = target(device, "depth4", Format::Depth32Float, 4);
+        refused(device, &["differ in samples"], |r| r.render(RenderPass { depth: depth(mixed), ..pass(&color) }));
+        let resolve = |image: &osculate_gpu::Image, resolve: &osculate_gpu::Image| {
+            let target = ColorTarget { image: image.clone(), clear, resolve: Some(resolve.clone()) };
+            RenderPass { color: Some(target), ..pass(image) }
+        };
+        refused(device, &["resolve"], |r| r.render(resolve(&color, &color)));
+        refused(device, &["resolve"], |r| r.render(resolve(&samples, &other)));
+        let kept = ColorTarget { image: color.clone(), clear: None, resolve: None };
+        refused(device, &["\"color\"", "nothing was drawn"], |r| {
+            r.render(RenderPass { color: Some(kept), ..pass(&color) });
+        });
+        let pipeline = simple_pipeline(device, Some(Format::Rgba8Unorm), false);
+        let draws = vec![draw(&pipeline, (0..3).into())];
+        refused(device, &["\"simple\"", "other targets"], |r| r.render(RenderPass { draws, ..pass(&other) }));
+        let indices = words(device, "indices", BufferUsage::INDEX);
+        let draws = vec![draw(&pipeline, Vertices::Indexed { indices, range: 60..65 })];
+        refused(device, &["\"indices\"", "240..260"], |r| r.render(RenderPass { draws, ..pass(&color) }));
+    });
+}
+
+#[test]
+fn captures_are_checked() {
+    with_device(|device| {
+        let plain = words(device, "plain", BufferUsage::STORAGE);
+        let buffer = words(device, "captured", BufferUsage::CAPTURE | BufferUsage::STORAGE);
+        let pass = |buffer: &Buffer, draws: Vec<Draw>| CapturePass {
+            name: "capture".to_owned(),
+            buffer: buffer.clone(),
+            offset: 0,
+            draws,
+        };
+        refused(device, &["\"plain\"", "usage"], |r| r.capture(pass(&plain, vec![])));
+        refused(device, &["offset"], |r| r.capture(CapturePass { offset: 2, ..pass(&buffer, vec![]) }));
+        refused(device, &["offset"], |r| r.capture(CapturePass { offset: 256, ..pass(&buffer, vec![]) }));
+        let drawing = simple_pipeline(device, Some(Format::Rgba8Unorm), false);
+        refused(device, &["\"simple\"", "other targets"], |r| {
+            r.capture(pass(&buffer, vec![draw(&drawing, (0..3).into())]));
+        });
+        let silent = simple_pipeline(device, None, true);
+        refused(device, &["\"simple\"", "nothing to capture"], |r| {
+            r.capture(pass(&buffer, vec![draw(&silent, (0..3).into())]));
+        });
+        let vertex = shader(
+            device,
+            "echo.vert",
+            "layout(binding = 0) readonly buffer Words { float words[]; };
+             layout(location = 0, xfb_buffer = 0, xfb_offset = 0, xfb_stride = 4) out float result;
+             void main() { result = words[gl_VertexIndex]; }",
+        );
+        let plain = GraphicsPipelineDesc::new("echo", &vertex);
+        let echo = device.graphics_pipeline(&GraphicsPipelineDesc { rasterizer_discard: true, ..plain }).unwrap();
+        let draws = vec![Draw { bindings: bind(&[&buffer]), ..draw(&echo, (0..3).into()) }];
+        refused(device, &["captures into a buffer that its draws use"], |r| r.capture(pass(&buffer, draws)));
+    });
+}
