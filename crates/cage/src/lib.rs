@@ -1,7 +1,8 @@
 //! Control cages: reading OBJ and glTF, validation, topology.
 //!
-//! A [`Cage`] is valid by construction: a closed or open, oriented, manifold mesh of polygons with finite positions. Whatever a file holds, reading it ends in a cage or in
-//! an error that names the file, the line or the elements at fault; nothing after this crate has to check again.
+//! A [`Cage`] is valid by construction: a closed or open, oriented, manifold mesh of polygons with finite positions. Whatever a
+//! file holds, reading it ends in a cage or in an error that names the file, the line or the elements at fault; nothing after
+//! this crate has to check again.
 //!
 //! Vertices, faces and half-edges are numbered from 0. The index of a face is the index of its `f` line in the file.
 #![cfg_attr(test, expect(clippy::single_range_in_vec_init, reason = "face sets are lists of ranges"))]

@@ -2,7 +2,8 @@
 
 use std::collections::HashMap;
 
-/// Numbers distinct points. Equal means equal coordinates, whatever the sign of zero; points that are not numbers equal those with the same bits.
+/// Numbers distinct points. Equal means equal coordinates, whatever the sign of zero; points that are not numbers equal those
+/// with the same bits.
 pub(crate) struct Welder<const N: usize> {
     known: HashMap<([u64; N], u32), u32>,
 }

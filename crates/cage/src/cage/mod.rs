@@ -17,7 +17,8 @@ pub struct FaceVarying {
 }
 
 impl FaceVarying {
-    /// Ends the reading of a file, in which corners without a value have the index [`NONE`]: they all get (0, 0), with a warning. No values at all are no data.
+    /// Ends the reading of a file, in which corners without a value have the index [`NONE`]: they all get (0, 0), with a warning.
+    /// No values at all are no data.
     pub(crate) fn finish(mut self, face_offsets: &[u32], warnings: &mut Vec<Warning>) -> Option<Self> {
         if self.indices.iter().all(|&i| i == NONE) {
             return None;
@@ -77,8 +78,8 @@ pub struct CageDesc {
 
 /// A control cage: an oriented manifold mesh of polygons, valid by construction.
 ///
-/// Every edge has one face or two that run it in opposite directions, the faces at every vertex form one fan, no face repeats a vertex, every vertex has a face, and all
-/// coordinates are finite.
+/// Every edge has one face or two that run it in opposite directions, the faces at every vertex form one fan, no face repeats a
+/// vertex, every vertex has a face, and all coordinates are finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cage {
     positions: Vec<DVec3>,

@@ -1,4 +1,5 @@
-//! Elements of accessors, checked against view and buffer once and then read one by one: what a primitive does not use costs nothing, however large the accessor claims to be.
+//! Elements of accessors, checked against view and buffer once and then read one by one: what a primitive does not use costs
+//! nothing, however large the accessor claims to be.
 
 use ::gltf::Accessor;
 use ::gltf::accessor::{DataType, Dimensions, sparse};

@@ -1,7 +1,8 @@
 //! glTF 2.0, as `.gltf` with its buffers or as `.glb`.
 //!
-//! Triangles are taken as they are, in scene placement. Vertices that exporters split at seams of normals and uv are welded again by exact position, and uv are kept per
-//! corner. The `gltf` crate reads the JSON and checks references inside it; everything about bytes is checked here, because the crate reads wrong component types silently.
+//! Triangles are taken as they are, in scene placement. Vertices that exporters split at seams of normals and uv are welded again
+//! by exact position, and uv are kept per corner. The `gltf` crate reads the JSON and checks references inside it; everything
+//! about bytes is checked here, because the crate reads wrong component types silently.
 
 mod accessor;
 mod base64;

@@ -13,8 +13,8 @@ pub(super) struct PlacedMesh<'a> {
     pub(super) to_world: DAffine3,
 }
 
-/// The meshes of the default scene, else of the first, else of all nodes, parents before children. No recursion: depth costs memory, not stack, and a node that is met
-/// twice is an error, so cycles end.
+/// The meshes of the default scene, else of the first, else of all nodes, parents before children. No recursion: depth costs
+/// memory, not stack, and a node that is met twice is an error, so cycles end.
 pub(super) fn placed_meshes(gltf: &Gltf) -> Result<Vec<PlacedMesh<'_>>, GltfError> {
     let mut seen = vec![false; gltf.nodes().len()];
     let mut found = Vec::new();

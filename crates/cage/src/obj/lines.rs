@@ -2,8 +2,8 @@
 
 use std::borrow::Cow;
 
-/// Logical lines with the number, from 1, of the physical line they start in. Lines end with LF, CR LF or CR; a backslash at the end joins the next line, except in a
-/// comment, where it is more likely a path.
+/// Logical lines with the number, from 1, of the physical line they start in. Lines end with LF, CR LF or CR; a backslash at the
+/// end joins the next line, except in a comment, where it is more likely a path.
 pub(super) struct Lines<'a> {
     rest: &'a [u8],
     next_number: u32,

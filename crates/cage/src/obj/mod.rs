@@ -1,7 +1,7 @@
 //! Wavefront OBJ, with the `t` statements that OpenSubdiv adds for tags.
 //!
-//! Read are vertices, uv, polygons of any size, objects, groups, materials and tags; normals and smoothing groups mean nothing to a subdivision surface. Indices may run
-//! forward, and negative ones count back from the last vertex so far.
+//! Read are vertices, uv, polygons of any size, objects, groups, materials and tags; normals and smoothing groups mean nothing to
+//! a subdivision surface. Indices may run forward, and negative ones count back from the last vertex so far.
 
 mod error;
 mod face;

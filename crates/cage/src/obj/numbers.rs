@@ -24,7 +24,8 @@ pub(super) fn number(word: &[u8]) -> Result<f64, ObjError> {
     if value.is_finite() { Ok(value) } else { Err(ObjError::NotFinite(quoted(word))) }
 }
 
-/// Up to `N` numbers of a statement, of which `needed` must be there; the others are 0. What follows is not looked at: weights and colours of vertices.
+/// Up to `N` numbers of a statement, of which `needed` must be there; the others are 0. What follows is not looked at: weights
+/// and colours of vertices.
 pub(super) fn numbers<'a, const N: usize>(
     statement: &'static str,
     needed: usize,

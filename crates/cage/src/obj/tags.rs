@@ -1,5 +1,5 @@
-//! The `t` statements of OpenSubdiv: `t NAME INTS/FLOATS/STRINGS ARGUMENTS`, where the counts say how many arguments of each kind follow. Indices count from 0, unlike
-//! those of faces.
+//! The `t` statements of OpenSubdiv: `t NAME INTS/FLOATS/STRINGS ARGUMENTS`, where the counts say how many arguments of each kind
+//! follow. Indices count from 0, unlike those of faces.
 
 use super::ObjError;
 use super::numbers::{integer, number, quoted};

@@ -5,8 +5,9 @@ use std::io::{self, Write};
 
 use crate::{BoundaryRule, Cage, CreaseMethod, FaceSet, FaceSetKind, Tags};
 
-/// Writes a cage as OBJ text: vertices, uv, faces in order with their sets, tags. Numbers are in the shortest form that reads back as the same bits, so reading the text
-/// gives the same cage, with two exceptions: names get a `_` where an OBJ line cannot hold them, and of several objects or materials of one face the first is written.
+/// Writes a cage as OBJ text: vertices, uv, faces in order with their sets, tags. Numbers are in the shortest form that reads
+/// back as the same bits, so reading the text gives the same cage, with two exceptions: names get a `_` where an OBJ line cannot
+/// hold them, and of several objects or materials of one face the first is written.
 ///
 /// # Errors
 /// What the writer returns.

@@ -1,5 +1,6 @@
-//! Building a [`Topology`]: half-edges are bucketed by the lower vertex of their edge (a counting sort), buckets are sorted in parallel, and every half-edge finds its twin
-//! by binary search in its bucket. Gathers only, so the parallel loops need no locks and the result does not depend on the number of threads.
+//! Building a [`Topology`]: half-edges are bucketed by the lower vertex of their edge (a counting sort), buckets are sorted in
+//! parallel, and every half-edge finds its twin by binary search in its bucket. Gathers only, so the parallel loops need no locks
+//! and the result does not depend on the number of threads.
 
 use rayon::prelude::*;
 

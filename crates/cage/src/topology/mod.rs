@@ -1,7 +1,8 @@
 //! Half-edge topology of a polygon mesh.
 //!
-//! A half-edge is a face corner: half-edge `h` runs from the vertex of corner `h` to the vertex of the next corner of the same face, with the face on its left. Corners are
-//! stored face after face, so the half-edges of a face are a range and everything but the pairing of half-edges is arithmetic.
+//! A half-edge is a face corner: half-edge `h` runs from the vertex of corner `h` to the vertex of the next corner of the same
+//! face, with the face on its left. Corners are stored face after face, so the half-edges of a face are a range and everything
+//! but the pairing of half-edges is arithmetic.
 
 mod build;
 mod error;
@@ -16,8 +17,8 @@ use crate::NONE;
 
 /// The adjacency of an oriented manifold mesh of polygons, with or without boundary.
 ///
-/// Edges are numbered by their first occurrence in half-edge order, and every choice (the half-edge of an edge or vertex) is the lowest possible index: equal meshes give
-/// equal topologies.
+/// Edges are numbered by their first occurrence in half-edge order, and every choice (the half-edge of an edge or vertex) is the
+/// lowest possible index: equal meshes give equal topologies.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Topology {
     face_offsets: Vec<u32>,
@@ -31,12 +32,13 @@ pub struct Topology {
 }
 
 impl Topology {
-    /// Builds the adjacency of `vertex_count` vertices and the faces given as compressed rows: face `f` has the corners `face_offsets[f]..face_offsets[f + 1]` of
-    /// `face_vertices`. Vertices without faces are allowed.
+    /// Builds the adjacency of `vertex_count` vertices and the faces given as compressed rows: face `f` has the corners
+    /// `face_offsets[f]..face_offsets[f + 1]` of `face_vertices`. Vertices without faces are allowed.
     ///
     /// # Errors
-    /// Malformed rows, faces with fewer than three or repeated corners, vertices that do not exist, edges with more than two faces or run twice in the same direction,
-    /// vertices whose faces are not one fan, and counts beyond 32 bits. The error names elements by their index.
+    /// Malformed rows, faces with fewer than three or repeated corners, vertices that do not exist, edges with more than two
+    /// faces or run twice in the same direction, vertices whose faces are not one fan, and counts beyond 32 bits. The error names
+    /// elements by their index.
     pub fn build(
         vertex_count: usize,
         face_offsets: impl Into<Vec<u32>>,
@@ -138,7 +140,8 @@ impl Topology {
         self.twin(self.edge_half_edge(e)) == NONE
     }
 
-    /// An outgoing half-edge of vertex `v`: at a boundary the one without a twin, elsewhere the lowest, [`NONE`] for a vertex without faces.
+    /// An outgoing half-edge of vertex `v`: at a boundary the one without a twin, elsewhere the lowest, [`NONE`] for a vertex
+    /// without faces.
     #[must_use]
     pub fn vertex_half_edge(&self, v: u32) -> u32 {
         self.vertex_half_edges[v as usize]
