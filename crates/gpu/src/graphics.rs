@@ -1,5 +1,7 @@
 //! Graphics pipelines.
 
+mod state;
+
 use std::sync::Arc;
 
 use ash::vk;
@@ -11,107 +13,7 @@ use crate::{
     pipeline::{Pipeline, StageData},
 };
 
-/// What vertices are joined to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum Topology {
-    /// Separate points.
-    Points,
-    /// Separate lines, two vertices each.
-    Lines,
-    /// Connected lines.
-    LineStrip,
-    /// Separate triangles, three vertices each.
-    #[default]
-    Triangles,
-    /// Connected triangles.
-    TriangleStrip,
-    /// Patches for tessellation.
-    Patches,
-}
-
-/// How triangles are filled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum PolygonMode {
-    /// Their whole area.
-    #[default]
-    Fill,
-    /// Their edges only; needs [`Features::wireframe`](crate::Features::wireframe).
-    Line,
-}
-
-/// Which triangles are left out.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum Cull {
-    /// None.
-    #[default]
-    None,
-    /// Those facing away.
-    Back,
-    /// Those facing the viewer.
-    Front,
-}
-
-/// Which triangles face the viewer, as seen in the picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum FrontFace {
-    /// Those whose vertices run counter-clockwise in the picture.
-    #[default]
-    CounterClockwise,
-    /// Those whose vertices run clockwise in the picture.
-    Clockwise,
-}
-
-/// Which depths pass.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum Compare {
-    /// Smaller ones.
-    #[default]
-    Less,
-    /// Smaller or equal ones.
-    LessOrEqual,
-    /// Greater ones, for a reversed depth range.
-    Greater,
-    /// Greater or equal ones, for a reversed depth range.
-    GreaterOrEqual,
-    /// All.
-    Always,
-}
-
-/// Added to depths, to draw lines upon faces.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
-pub struct DepthBias {
-    /// In units of the smallest difference of depths.
-    pub constant: f32,
-    /// Times the slope of the triangle.
-    pub slope: f32,
-}
-
-/// How the depth target is used.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DepthState {
-    /// Depths that pass are written.
-    pub write: bool,
-    /// Which depths pass.
-    pub compare: Compare,
-    /// Added to depths.
-    pub bias: Option<DepthBias>,
-}
-
-impl Default for DepthState {
-    fn default() -> Self {
-        Self { write: true, compare: Compare::Less, bias: None }
-    }
-}
-
-/// How colours are combined with those of the target.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
-pub enum Blend {
-    /// They replace them.
-    #[default]
-    Replace,
-    /// They are laid over them by their alpha, which is not yet multiplied in.
-    Alpha,
-}
+pub use state::{Blend, Compare, Cull, DepthBias, DepthState, FrontFace, PolygonMode, Topology};
 
 /// The tessellation stages of a pipeline.
 #[derive(Clone, Copy, Debug)]
@@ -305,15 +207,15 @@ impl Device {
             data.iter().zip(&specializations).map(|(stage, constants)| stage.info(constants)).collect();
 
         let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
-        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(topology(desc.topology));
+        let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(state::topology(desc.topology));
         let patch_points = desc.tessellation.map_or(0, |tessellation| tessellation.patch_points);
         let tessellation = vk::PipelineTessellationStateCreateInfo::default().patch_control_points(patch_points);
         let viewport = vk::PipelineViewportStateCreateInfo::default().viewport_count(1).scissor_count(1);
-        let rasterization = rasterization(desc);
+        let rasterization = state::rasterization(desc);
         let multisample = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(sample_flag(desc.samples).unwrap_or(vk::SampleCountFlags::TYPE_1));
-        let depth = depth(desc.depth);
-        let attachments: Vec<_> = desc.color_format.map(|_| blend(desc.blend)).into_iter().collect();
+        let depth = state::depth(desc.depth);
+        let attachments: Vec<_> = desc.color_format.map(|_| state::blend(desc.blend)).into_iter().collect();
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic_states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
@@ -341,73 +243,5 @@ impl Device {
         // layout was merged from the very shaders.
         let made = unsafe { self.raw().create_graphics_pipelines(cache.raw, &[info], None) };
         self.single(desc.name, made)
-    }
-}
-
-fn topology(topology: Topology) -> vk::PrimitiveTopology {
-    match topology {
-        Topology::Points => vk::PrimitiveTopology::POINT_LIST,
-        Topology::Lines => vk::PrimitiveTopology::LINE_LIST,
-        Topology::LineStrip => vk::PrimitiveTopology::LINE_STRIP,
-        Topology::Triangles => vk::PrimitiveTopology::TRIANGLE_LIST,
-        Topology::TriangleStrip => vk::PrimitiveTopology::TRIANGLE_STRIP,
-        Topology::Patches => vk::PrimitiveTopology::PATCH_LIST,
-    }
-}
-
-fn rasterization(desc: &GraphicsPipelineDesc<'_>) -> vk::PipelineRasterizationStateCreateInfo<'static> {
-    let polygon_mode = match desc.polygon_mode {
-        PolygonMode::Fill => vk::PolygonMode::FILL,
-        PolygonMode::Line => vk::PolygonMode::LINE,
-    };
-    let cull = match desc.cull {
-        Cull::None => vk::CullModeFlags::NONE,
-        Cull::Back => vk::CullModeFlags::BACK,
-        Cull::Front => vk::CullModeFlags::FRONT,
-    };
-    let front = match desc.front_face {
-        FrontFace::CounterClockwise => vk::FrontFace::COUNTER_CLOCKWISE,
-        FrontFace::Clockwise => vk::FrontFace::CLOCKWISE,
-    };
-    let bias = desc.depth.and_then(|depth| depth.bias);
-    let DepthBias { constant, slope } = bias.unwrap_or_default();
-    vk::PipelineRasterizationStateCreateInfo::default()
-        .rasterizer_discard_enable(desc.rasterizer_discard)
-        .polygon_mode(polygon_mode)
-        .cull_mode(cull)
-        .front_face(front)
-        .depth_bias_enable(bias.is_some())
-        .depth_bias_constant_factor(constant)
-        .depth_bias_slope_factor(slope)
-        .line_width(1.0)
-}
-
-fn depth(state: Option<DepthState>) -> vk::PipelineDepthStencilStateCreateInfo<'static> {
-    let Some(state) = state else { return vk::PipelineDepthStencilStateCreateInfo::default() };
-    let compare = match state.compare {
-        Compare::Less => vk::CompareOp::LESS,
-        Compare::LessOrEqual => vk::CompareOp::LESS_OR_EQUAL,
-        Compare::Greater => vk::CompareOp::GREATER,
-        Compare::GreaterOrEqual => vk::CompareOp::GREATER_OR_EQUAL,
-        Compare::Always => vk::CompareOp::ALWAYS,
-    };
-    vk::PipelineDepthStencilStateCreateInfo::default()
-        .depth_test_enable(true)
-        .depth_write_enable(state.write)
-        .depth_compare_op(compare)
-}
-
-fn blend(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
-    let state = vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA);
-    match blend {
-        Blend::Replace => state,
-        Blend::Alpha => state
-            .blend_enable(true)
-            .src_color_blend_factor(vk::BlendFactor::SRC_ALPHA)
-            .dst_color_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
-            .color_blend_op(vk::BlendOp::ADD)
-            .src_alpha_blend_factor(vk::BlendFactor::ONE)
-            .dst_alpha_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
-            .alpha_blend_op(vk::BlendOp::ADD),
     }
 }

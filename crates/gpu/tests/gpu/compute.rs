@@ -167,6 +167,21 @@ fn uniform_buffers_are_read_and_upload_buffers_rewritten() {
     });
 }
 
+/// The way in where the host does not see the device's memory.
+#[test]
+fn host_bytes_reach_device_memory_by_a_copy() {
+    with_device(|device| {
+        let make =
+            |name, memory| device.buffer(&BufferDesc { name, size: 32, usage: BufferUsage::STORAGE, memory }).unwrap();
+        let (staging, values) = (make("staging", Memory::Upload), make("values", Memory::Device));
+        staging.write(8, &[1u32, 2, 3]).unwrap();
+        let mut recording = Recording::new();
+        recording.copy_buffer(&staging, 8..20, &values, 16);
+        device.run(&recording).unwrap();
+        assert_eq!(device.download::<u32>(&values, 16..28).unwrap(), [1, 2, 3]);
+    });
+}
+
 #[test]
 fn empty_buffers_and_dispatches_do_no_harm() {
     with_device(|device| {

@@ -1,11 +1,12 @@
 //! Render passes: clears, triangles, depth, blending, multisampling, indices, tessellation.
 
 use osculate_gpu::{
-    Bindings, Blend, BufferUsage, ColorTarget, DepthState, DepthTarget, Device, Draw, Format, GraphicsPipeline,
-    GraphicsPipelineDesc, Image, PolygonMode, Recording, RenderPass, Tessellation, Topology, Vertices,
+    Bindings, Blend, BufferUsage, ColorTarget, DepthState, DepthTarget, Device, Draw, Format, GpuError,
+    GraphicsPipeline, GraphicsPipelineDesc, Image, PolygonMode, Recording, RenderPass, Tessellation, Topology,
+    Vertices,
 };
 
-use crate::harness::{shader, target, with_device};
+use crate::harness::{bind, open, shader, target, with_device};
 
 /// A triangle that covers the left half of the picture: its long side runs down the middle.
 const TRIANGLE: &str = "
@@ -237,15 +238,48 @@ fn a_tessellated_quad_fills_its_square_solid_and_as_wires() {
                 color_format: Some(Format::Rgba8Unorm),
                 ..GraphicsPipelineDesc::new(name, &vertex)
             };
-            let pipeline = device.graphics_pipeline(&desc).unwrap();
+            let pipeline = device.graphics_pipeline(&desc)?;
             let bindings = Bindings::new();
             let draw = Draw { pipeline, bindings, push: vec![], vertices: (0..4).into(), instances: 0..1 };
             let image = target(device, name, Format::Rgba8Unorm, 1);
-            texels(device, pass(cleared(&image, None), None, vec![draw]), &image)
+            Ok::<_, GpuError>(texels(device, pass(cleared(&image, None), None, vec![draw]), &image))
         };
-        assert_eq!(render(PolygonMode::Fill, "solid"), [[255, 0, 0, 255], [0, 0, 255, 255]]);
+        let (red, blue) = ([255, 0, 0, 255], [0, 0, 255, 255]);
+        assert_eq!(render(PolygonMode::Fill, "solid").unwrap(), [red, blue]);
+        let wires = render(PolygonMode::Line, "wires");
         if device.info().features.wireframe {
-            assert_eq!(render(PolygonMode::Line, "wires")[1], [0, 0, 255, 255]);
+            // The texel at (4, 8) is on neither a side nor the diagonal.
+            assert_eq!(wires.unwrap(), [blue, blue]);
+        } else {
+            assert!(matches!(wires, Err(GpuError::MissingFeature { .. })));
         }
     });
+}
+
+/// The other tests would pass without validation too; this one shows that it is on, synchronization included: one draw reads
+/// what another of the same pass writes, a race that the crate documents as the caller's.
+#[test]
+fn validation_reports_a_race() {
+    let device = open(true);
+    let image = target(&device, "picture", Format::Rgba8Unorm, 1);
+    let word = device.upload("word", BufferUsage::STORAGE, &[0.0f32]).unwrap();
+    let fragment = shader(&device, "flat.frag", "layout(location = 0) out vec4 c; void main() { c = vec4(1.0); }");
+    let draw = |name: &str, source: &str| {
+        let vertex = shader(&device, name, source);
+        let mut desc = GraphicsPipelineDesc::new(name, &vertex);
+        desc.fragment = Some(&fragment);
+        desc.color_format = Some(Format::Rgba8Unorm);
+        let pipeline = device.graphics_pipeline(&desc).unwrap();
+        Draw { pipeline, bindings: bind(&[&word]), push: vec![], vertices: (0..3).into(), instances: 0..1 }
+    };
+    let writes = "layout(binding = 0) writeonly buffer Word { float word; };
+         void main() { word = 1.0; gl_Position = vec4(0.0); }";
+    let reads = "layout(binding = 0) readonly buffer Word { float word; };
+         void main() { gl_Position = vec4(word); }";
+    let draws = vec![draw("writes.vert", writes), draw("reads.vert", reads)];
+    let mut recording = Recording::new();
+    recording.render(pass(cleared(&image, None), None, draws));
+    device.run(&recording).unwrap();
+    let messages = device.validation_messages();
+    assert!(messages.iter().any(|message| message.contains("SYNC-HAZARD-READ-AFTER-WRITE")), "{messages:?}");
 }
