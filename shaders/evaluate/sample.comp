@@ -41,7 +41,7 @@ void regular_bezier(PatchRecord p, out vec3 b[16]) {
 void extraordinary_gregory(PatchRecord p, out vec3 g[GREGORY_POINTS]) {
     for (uint row = 0u; row < GREGORY_POINTS; ++row) {
         precise vec3 sum = vec3(0.0);
-        for (uint i = 0u; i < p.net_size; ++i) {
+        for (uint i = p.net_size; i-- > 0u;) {
             sum = sum + weights[p.basis + row * p.net_size + i] * load_point(nets[p.net + i]);
         }
         g[row] = sum;

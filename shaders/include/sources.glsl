@@ -16,10 +16,11 @@ struct MatrixSource {
 
 layout(std430, set = 0, binding = BINDING_SOURCES) readonly buffer Sources { MatrixSource sources[]; };
 
-// Row `row` of the source's matrix times its net, summed in net order.
+// Row `row` of the source's matrix times its net, summed from the last point to the first: the vertex in the middle comes first in a net and weighs
+// most, and the many light points of a high valence would lose bits if they were added to it one by one.
 vec3 matrix_row(MatrixSource source, uint row) {
     precise vec3 sum = vec3(0.0);
-    for (uint i = 0u; i < source.columns; ++i) {
+    for (uint i = source.columns; i-- > 0u;) {
         sum = sum + weights[source.weights + row * source.columns + i] * load_point(nets[source.net + i]);
     }
     return sum;

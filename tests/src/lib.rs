@@ -3,6 +3,7 @@
 //! Tests that draw take [`gpu()`], whose guard fails the test if validation said anything. Tests that compare with data from elsewhere take
 //! [`reference_folder`] and are ignored by default.
 
+pub mod mutation;
 pub mod zoo;
 
 use std::path::PathBuf;

@@ -124,3 +124,31 @@ pub fn pole(n: usize) -> Cage {
     let faces: Vec<Vec<u32>> = (0..n).flat_map(|i| [vec![i, (i + 1) % n, n], vec![(i + 1) % n, i, n + 1]]).collect();
     cage(positions, &faces)
 }
+
+/// The cage scaled about the origin, then shifted.
+pub fn moved(cage: &Cage, scale: f64, offset: DVec3) -> Cage {
+    let positions = cage.positions().iter().map(|&p| p * scale + offset).collect();
+    let faces: Vec<Vec<u32>> = (0..cage.face_count()).map(|f| cage.face(f).to_vec()).collect();
+    self::cage(positions, &faces)
+}
+
+/// All OBJ files below the reference folder's models.
+///
+/// # Panics
+/// If the folder cannot be read.
+pub fn reference_cages(reference: &Path) -> Vec<PathBuf> {
+    let mut folders = vec![reference.join("models")];
+    let mut files = Vec::new();
+    while let Some(folder) = folders.pop() {
+        for entry in folder.read_dir().unwrap_or_else(|error| panic!("{}: {error}", folder.display())) {
+            let path = entry.expect("a readable entry").path();
+            if path.is_dir() {
+                folders.push(path);
+            } else if path.extension().is_some_and(|extension| extension == "obj") {
+                files.push(path);
+            }
+        }
+    }
+    files.sort();
+    files
+}

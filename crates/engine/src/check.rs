@@ -131,7 +131,10 @@ impl<'a> Proof<'a> {
                 self.compare(points[id as usize], vertex);
                 id
             });
-            edges.extend([(ids[0], ids[1]), (ids[1], ids[2]), (ids[2], ids[0])].into_iter().filter(|(a, b)| a != b));
+            // A triangle with a repeated vertex (fractional spacing makes some) covers nothing and bounds nothing.
+            if ids[0] != ids[1] && ids[1] != ids[2] && ids[2] != ids[0] {
+                edges.extend([(ids[0], ids[1]), (ids[1], ids[2]), (ids[2], ids[0])]);
+            }
         }
         for point in &points {
             self.add_shared(point);

@@ -146,7 +146,7 @@ fn matrix_row(plan: &SurfacePlan, points: &[Vec3], source: &MatrixSource, row: u
     let columns = source.columns as usize;
     let net = &plan.nets[source.net as usize..][..columns];
     let weights = &plan.weights[source.weights as usize + row * columns..][..columns];
-    weights.iter().zip(net).fold(Vec3::ZERO, |sum, (&w, &i)| sum + w * points[i as usize])
+    weights.iter().zip(net).rev().fold(Vec3::ZERO, |sum, (&w, &i)| sum + w * points[i as usize])
 }
 
 fn cross_product(a: Vec3, b: Vec3) -> Vec3 {

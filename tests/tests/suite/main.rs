@@ -1,4 +1,5 @@
 //! All cases that need more than one crate, in one program so that they link once and share a device.
 
+mod sampling;
 mod subdivision;
 mod watertight;

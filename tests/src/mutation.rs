@@ -1,0 +1,53 @@
+//! Shaders with a deliberate mistake, for tests that a check can fail.
+
+use osculate::ShaderSet;
+use osculate_shader_compiler::{CompileDesc, compile};
+use osculate_shaders::{INCLUDE_DIRS, SHADERS, source};
+
+/// One change of one file of the shaders folder.
+pub struct Mutation {
+    /// Path of the file.
+    pub path: &'static str,
+    /// Text that occurs there exactly once.
+    pub from: &'static str,
+    /// What it becomes.
+    pub to: &'static str,
+}
+
+impl Mutation {
+    fn apply(&self) -> String {
+        let text = source(self.path).unwrap_or_else(|| panic!("there is no shader file {}", self.path));
+        assert_eq!(text.matches(self.from).count(), 1, "{:?} must occur once in {}", self.from, self.path);
+        text.replace(self.from, self.to)
+    }
+}
+
+/// All patch stages, compiled with the mutations.
+///
+/// # Panics
+/// If a mutation does not fit its file, or the changed shaders do not compile, or no shader comes out different.
+pub fn mutated(mutations: &[Mutation]) -> ShaderSet {
+    let changed: Vec<(&str, String)> = mutations.iter().map(|mutation| (mutation.path, mutation.apply())).collect();
+    let load = |path: &str| match changed.iter().find(|(name, _)| *name == path) {
+        Some((_, text)) => Some(text.clone()),
+        None => source(path).map(str::to_owned),
+    };
+    let mut set = ShaderSet::embedded();
+    let mut different = 0;
+    for shader in SHADERS.iter().filter(|shader| shader.path.starts_with("patch/")) {
+        let text = load(shader.path).expect("an embedded shader has its source");
+        let desc = CompileDesc {
+            name: shader.path,
+            source: &text,
+            include_dirs: INCLUDE_DIRS,
+            load: &load,
+            defines: shader.defines,
+            debug_info: false,
+        };
+        let words = compile(&desc).unwrap_or_else(|error| panic!("{}: {error}", shader.name));
+        different += usize::from(words != shader.spirv);
+        set = set.with_override(shader.name, words).expect("the name is that of an embedded shader");
+    }
+    assert!(different > 0, "the mutations change no shader");
+    set
+}
