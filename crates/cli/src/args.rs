@@ -1,6 +1,6 @@
 //! The command line as a whole; each command's own options are in its file under `commands`.
 
-use crate::commands::{compare, sample};
+use crate::commands::{check, compare, export, inspect, render, sample};
 use clap::{ArgAction, Args, Parser, Subcommand};
 
 /// Smooth subdivision surfaces through hull and domain stages of Vulkan, from the command line.
@@ -47,15 +47,25 @@ pub(crate) struct GlobalArgs {
 /// What to do.
 #[derive(Subcommand, Debug)]
 pub(crate) enum Command {
+    /// Draw the surface to a PNG file.
+    Render(render::RenderArgs),
     /// Print points of the surface with derivatives and normals as CSV.
     Sample(sample::SampleArgs),
+    /// Write the triangles that the device draws: PLY, OBJ, GLB, STL.
+    Export(export::ExportArgs),
+    /// Prove that the drawn surface has no cracks.
+    Check(check::CheckArgs),
+    /// Say what a cage is made of.
+    Inspect(inspect::InspectArgs),
     /// Compare two pictures as a person would see them.
     Compare(compare::CompareArgs),
 }
 
 const EXAMPLES: &str = "\
 Examples:
-  osculate sample cube.obj --grid 4 --scheme stam --evaluator reference
-  osculate compare before.png after.png -o diff.png
+  osculate render assets/cages/torus.obj -o torus.png
+  osculate inspect assets/cages/torus.obj
+  osculate check assets/cages/torus.obj --levels 1,5,8
+  osculate export assets/cages/torus.obj --level 16 -o torus.glb
 
 Exit codes: 0 done, 1 a check or comparison failed, 2 usage, 3 bad input file, 4 no usable device.";

@@ -8,6 +8,7 @@
 //! | 3 | an input file that cannot be read or is refused |
 //! | 4 | no usable device |
 
+use osculate::EngineError;
 use std::fmt::Display;
 use std::io::{self, Write};
 use std::path::Path;
@@ -128,6 +129,12 @@ impl From<io::Error> for WriteError {
 impl From<Failure> for WriteError {
     fn from(failure: Failure) -> Self {
         Self::Failed(failure)
+    }
+}
+
+impl From<EngineError> for WriteError {
+    fn from(error: EngineError) -> Self {
+        Self::Failed(error.into())
     }
 }
 

@@ -2,8 +2,9 @@
 
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
+use osculate::EngineError;
 use osculate_cage::{BoundaryRule, Cage};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The cage and what happens at its boundary.
 #[derive(Args, Debug)]
@@ -48,19 +49,27 @@ pub(crate) struct Input {
 impl InputArgs {
     /// Reads the cage, passing its warnings on.
     pub(crate) fn read(&self) -> Result<Input, Failure> {
-        let cage = read_cage(&self.file)?;
+        let input = self.read_silently()?;
+        for warning in input.cage.warnings() {
+            tracing::warn!("{}: {warning}", self.file.display());
+        }
+        Ok(input)
+    }
+
+    /// Reads the cage for a command whose result holds the warnings.
+    pub(crate) fn read_silently(&self) -> Result<Input, Failure> {
+        let cage = Cage::read(&self.file).map_err(Failure::input)?;
         let boundary = self.boundary.map(BoundaryRule::from).or(cage.boundary_rule()).unwrap_or_default();
         Ok(Input { cage, boundary })
     }
-}
 
-/// Reads a cage, passing its warnings on.
-pub(crate) fn read_cage(file: &Path) -> Result<Cage, Failure> {
-    let cage = Cage::read(file).map_err(Failure::input)?;
-    for warning in cage.warnings() {
-        tracing::warn!("{}: {warning}", file.display());
+    /// The failure for a cage that cannot become a surface.
+    pub(crate) fn refuse(&self, error: EngineError) -> Failure {
+        match error {
+            EngineError::Plan(error) => Failure::input(format_args!("{}: {error}", self.file.display())),
+            other => other.into(),
+        }
     }
-    Ok(cage)
 }
 
 impl Input {

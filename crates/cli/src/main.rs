@@ -2,10 +2,10 @@
 
 mod args;
 mod commands;
+mod device;
 mod failure;
 mod input;
 mod logging;
-#[cfg(test)]
 mod mesh;
 mod options;
 mod progress;
@@ -31,8 +31,15 @@ fn main() -> ExitCode {
 
 fn run(cli: Cli) -> Result<Verdict, Failure> {
     let global = &cli.global;
+    if cli.list_devices {
+        return device::list();
+    }
     match cli.command {
+        Some(Command::Render(args)) => commands::render::run(&args.validate()?, global),
         Some(Command::Sample(args)) => commands::sample::run(&args.validate()?, global),
+        Some(Command::Export(args)) => commands::export::run(&args.validate()?, global),
+        Some(Command::Check(args)) => commands::check::run(&args.validate()?, global),
+        Some(Command::Inspect(args)) => commands::inspect::run(&args.validate()?),
         Some(Command::Compare(args)) => commands::compare::run(&args.validate()?),
         None => Err(no_command()),
     }

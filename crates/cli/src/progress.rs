@@ -1,7 +1,9 @@
 //! A bar on stderr for what takes more than a second.
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use std::time::{Duration, Instant};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::Duration;
 
 /// Work shorter than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
@@ -9,35 +11,54 @@ const PATIENCE: Duration = Duration::from_secs(1);
 /// A bar that appears once the work has taken a second; never where stderr is not a terminal or the user wants quiet.
 pub(crate) struct Progress {
     bar: ProgressBar,
-    start: Instant,
-    hidden: bool,
-    quiet: bool,
+    /// The thread that shows the bar, and the end of work that it waits for.
+    waiter: Option<(Sender<()>, JoinHandle<()>)>,
 }
 
 impl Progress {
     /// Progress over `length` units of work, called `what`.
     pub(crate) fn new(quiet: bool, length: u64, what: &'static str) -> Self {
         let bar = ProgressBar::with_draw_target(Some(length), ProgressDrawTarget::hidden());
-        let style = ProgressStyle::with_template("{msg} {bar:32} {human_pos}/{human_len} ({eta} left)")
-            .expect("the template is a constant that parses");
-        bar.set_style(style);
-        bar.set_message(what);
-        Self { bar, start: Instant::now(), hidden: true, quiet }
+        Self::start(quiet, bar, "{msg} {bar:32} {human_pos}/{human_len} ({eta} left)", what)
+    }
+
+    /// Work whose length is not known, called `what`.
+    pub(crate) fn waiting(quiet: bool, what: &'static str) -> Self {
+        let bar = ProgressBar::with_draw_target(None, ProgressDrawTarget::hidden());
+        Self::start(quiet, bar, "{spinner} {msg} ({elapsed})", what)
     }
 
     /// Counts `units` more as done.
-    pub(crate) fn advance(&mut self, units: u64) {
+    pub(crate) fn advance(&self, units: u64) {
         self.bar.inc(units);
-        if self.hidden && !self.quiet && self.start.elapsed() >= PATIENCE {
-            // Draws nothing where stderr is not a terminal.
-            self.bar.set_draw_target(ProgressDrawTarget::stderr());
-            self.hidden = false;
-        }
+    }
+
+    fn start(quiet: bool, bar: ProgressBar, template: &str, what: &'static str) -> Self {
+        bar.set_style(ProgressStyle::with_template(template).expect("the template is a constant that parses"));
+        bar.set_message(what);
+        let waiter = (!quiet).then(|| {
+            let (work, end) = channel::<()>();
+            let bar = bar.clone();
+            let show = move || {
+                if end.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
+                    // Draws nothing where stderr is not a terminal.
+                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                    bar.enable_steady_tick(Duration::from_millis(100));
+                }
+            };
+            (work, std::thread::spawn(show))
+        });
+        Self { bar, waiter }
     }
 }
 
 impl Drop for Progress {
     fn drop(&mut self) {
+        if let Some((work, waiter)) = self.waiter.take() {
+            drop(work);
+            // A bar that could not be shown is no reason to fail.
+            let _shown_or_not = waiter.join();
+        }
         self.bar.finish_and_clear();
     }
 }

@@ -1,4 +1,8 @@
 //! The commands, one file each: its options as they are typed, what they mean once validated, and the work.
 
+pub(crate) mod check;
 pub(crate) mod compare;
+pub(crate) mod export;
+pub(crate) mod inspect;
+pub(crate) mod render;
 pub(crate) mod sample;

@@ -1,14 +1,16 @@
 //! `sample`: points of the surface as CSV.
 
 use crate::args::GlobalArgs;
+use crate::device::with_engine;
 use crate::failure::{Failure, Verdict, WriteError};
 use crate::input::{Input, InputArgs};
 use crate::options::SchemeName;
 use crate::progress::Progress;
 use crate::samples::exact::{self, Exact};
-use crate::samples::{self, Found, Place, Places};
+use crate::samples::{self, Found, Place, Places, drawn};
 use crate::stdout;
 use clap::{Args, ValueEnum};
+use osculate::{Scheme, Surface, SurfaceDesc};
 use osculate_compare::whole_file;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -25,7 +27,7 @@ pub(crate) struct SampleArgs {
     #[command(flatten)]
     input: InputArgs,
 
-    /// How the surface is put together. Default: stam, the exact limit surface, with the reference evaluator.
+    /// How the surface is put together. Default: gregory2; with the reference evaluator stam, the exact limit surface.
     #[arg(long, alias = "schemes", value_name = "SCHEME")]
     scheme: Option<SchemeName>,
 
@@ -38,7 +40,7 @@ pub(crate) struct SampleArgs {
     at: Option<PathBuf>,
 
     /// Who evaluates.
-    #[arg(long, value_name = "EVALUATOR", default_value = "reference")]
+    #[arg(long, value_name = "EVALUATOR", default_value = "auto")]
     evaluator: EvaluatorArg,
 
     /// Where to write the CSV. Default: stdout.
@@ -49,6 +51,12 @@ pub(crate) struct SampleArgs {
 /// Names of the evaluators.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum EvaluatorArg {
+    /// The device.
+    Auto,
+    /// The device, by the text of the evaluation shaders.
+    Tessellator,
+    /// The device, by the same text in a compute shader.
+    Compute,
     /// The exact limit surface in double precision, without a device.
     Reference,
 }
@@ -63,7 +71,16 @@ Examples:
 pub(crate) struct Job {
     input: InputArgs,
     places: PlacesFrom,
+    evaluator: Evaluator,
     output: Option<PathBuf>,
+}
+
+/// Who evaluates what.
+enum Evaluator {
+    /// The exact limit surface, without a device.
+    Reference,
+    /// The device, in this scheme.
+    Device(Scheme),
 }
 
 /// Where the places come from.
@@ -77,12 +94,13 @@ enum PlacesFrom {
 impl SampleArgs {
     /// Checks that evaluator and scheme go together.
     pub(crate) fn validate(self) -> Result<Job, Failure> {
-        match (self.evaluator, self.scheme) {
-            (EvaluatorArg::Reference, None | Some(SchemeName::Stam)) => {}
+        let evaluator = match (self.evaluator, self.scheme) {
+            (EvaluatorArg::Reference, None | Some(SchemeName::Stam)) => Evaluator::Reference,
             (EvaluatorArg::Reference, Some(scheme)) => return Err(reference_is_exact(scheme)),
-        }
+            (_, scheme) => Evaluator::Device(scheme.unwrap_or(SchemeName::Gregory2).in_this_build()?),
+        };
         let places = self.at.map_or(PlacesFrom::Grid(self.grid), PlacesFrom::List);
-        Ok(Job { input: self.input, places, output: self.output })
+        Ok(Job { input: self.input, places, evaluator, output: self.output })
     }
 }
 
@@ -97,9 +115,19 @@ fn reference_is_exact(scheme: SchemeName) -> Failure {
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let input = job.input.read()?;
     let places = job.places.read(&input)?;
-    let mesh = exact::mesh(&input.cage);
-    let exact = Exact::new(&mesh, input.boundary)?;
-    write_rows(job.output.as_deref(), places, &|places| exact.evaluate(places), global)?;
+    let path = job.output.as_deref();
+    match job.evaluator {
+        Evaluator::Reference => {
+            let mesh = exact::mesh(&input.cage);
+            let exact = Exact::new(&mesh, input.boundary)?;
+            write_rows(path, places, &|places| exact.evaluate(places), global)?;
+        }
+        Evaluator::Device(scheme) => with_engine(global, |engine| {
+            let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
+            let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
+            write_rows(path, places, &|places| drawn::evaluate(&surface, places), global)
+        })?,
+    }
     Ok(Verdict::Pass)
 }
 
@@ -117,7 +145,7 @@ impl PlacesFrom {
 type Evaluate<'a> = &'a dyn Fn(&[Place]) -> Result<Vec<Found>, Failure>;
 
 fn write_rows(path: Option<&Path>, places: Places, evaluate: Evaluate<'_>, global: &GlobalArgs) -> Result<(), Failure> {
-    let mut progress = Progress::new(global.quiet, places.len, "sampling");
+    let progress = Progress::new(global.quiet, places.len, "sampling");
     let write = |out: &mut dyn Write| -> Result<(), WriteError> {
         writeln!(out, "{}", samples::HEADER)?;
         for batch in places.batches() {

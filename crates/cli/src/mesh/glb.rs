@@ -4,6 +4,7 @@
 use super::ply::write_floats;
 use super::{Mesh, positive_zeros};
 use glam::{DVec3, Vec3};
+use osculate::CageSpace;
 use serde_json::{Value, json};
 use std::io::{self, Write};
 
@@ -46,9 +47,10 @@ pub(crate) fn write(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
 
 /// Where the node stands and what is left of the positions.
 fn place(mesh: &Mesh) -> (DVec3, Vec<Vec3>) {
-    let size = mesh.positions.iter().map(|p| f64::from(p.abs().max_element())).fold(0.0, f64::max);
-    if mesh.center.abs().max_element() > FAR * size {
-        return (mesh.center, mesh.positions.clone());
+    let CageSpace { centre, scale } = mesh.space;
+    let size = mesh.positions.iter().map(|p| p.abs().max_element()).fold(0.0, f32::max);
+    if centre.abs().max_element() * scale > FAR * f64::from(size) {
+        return (centre, mesh.positions.iter().map(|&p| mesh.space.leave_vector(p).as_vec3()).collect());
     }
     (DVec3::ZERO, (0..mesh.positions.len()).map(|vertex| mesh.position(vertex).as_vec3()).collect())
 }
@@ -133,7 +135,8 @@ mod tests {
 
     #[test]
     fn far_away_is_the_nodes_translation() {
-        let mesh = Mesh { center: DVec3::new(1e6, 0.0, 0.1), ..square() };
+        let mut mesh = square();
+        mesh.space.centre = DVec3::new(1e6, 0.0, 0.1);
         let file = written(&mesh);
         let (json, binary) = chunks(&file);
         assert_eq!(json["nodes"][0]["translation"], json!([1e6, 0.0, 0.1]));
@@ -144,7 +147,7 @@ mod tests {
     #[test]
     fn bounds_are_the_very_floats() {
         let mut mesh = square();
-        mesh.center = DVec3::ZERO;
+        mesh.space = CageSpace { centre: DVec3::ZERO, scale: 1.0 };
         mesh.positions[1].x = 0.1;
         mesh.positions[2].x = 0.3;
         let file = written(&mesh);
@@ -154,6 +157,6 @@ mod tests {
 
     #[test]
     fn an_empty_mesh_is_an_error() {
-        assert!(write(&Mesh::default(), &mut Vec::new()).is_err());
+        assert!(write(&Mesh::empty(square().space), &mut Vec::new()).is_err());
     }
 }

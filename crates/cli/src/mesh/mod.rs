@@ -8,14 +8,15 @@ pub(crate) mod stl;
 mod weld;
 
 use glam::{DVec3, Vec3};
+use osculate::CageSpace;
 pub(crate) use weld::Welder;
 
 /// Triangles over shared vertices, counter-clockwise seen from outside.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Mesh {
-    /// What the positions are relative to, in the units of the cage.
-    pub(crate) center: DVec3,
-    /// Positions less `center`.
+    /// The coordinates that positions are in.
+    pub(crate) space: CageSpace,
+    /// Positions in `space`.
     pub(crate) positions: Vec<Vec3>,
     /// Unit normals, or zero where there is none; one per position.
     pub(crate) normals: Vec<Vec3>,
@@ -24,18 +25,23 @@ pub(crate) struct Mesh {
 }
 
 impl Mesh {
+    /// A mesh without vertices.
+    pub(crate) fn empty(space: CageSpace) -> Self {
+        Self { space, positions: Vec::new(), normals: Vec::new(), triangles: Vec::new() }
+    }
+
     /// The position of a vertex in the units of the cage.
     fn position(&self, vertex: usize) -> DVec3 {
-        object_space(self.center, self.positions[vertex])
+        object_space(&self.space, self.positions[vertex])
     }
 }
 
-/// A position relative to `center` in the units of the cage, without negative zeros.
-fn object_space(center: DVec3, position: Vec3) -> DVec3 {
-    center + position.as_dvec3() + DVec3::ZERO
+/// A position in the units of the cage, without negative zeros.
+fn object_space(space: &CageSpace, position: Vec3) -> DVec3 {
+    space.leave(position) + DVec3::ZERO
 }
 
-/// The same numbers with +0 for -0: the sum of zeros of either sign is +0.
+/// The same numbers with +0 for -0: the sum of -0 and +0 is +0.
 fn positive_zeros(v: Vec3) -> Vec3 {
     v + Vec3::ZERO
 }
@@ -47,8 +53,8 @@ mod tests {
     /// Two triangles with a common edge, away from the origin, with negative zeros.
     pub(super) fn square() -> Mesh {
         Mesh {
-            center: DVec3::new(10.0, 0.0, -3.0),
-            positions: vec![Vec3::new(0.0, -0.0, 0.0), Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::new(-0.0, 1.5, 0.0)],
+            space: CageSpace { centre: DVec3::new(10.0, 0.0, -3.0), scale: 0.5 },
+            positions: [[0.0, -0.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [-0.0, 0.75, 0.0]].map(Vec3::from).to_vec(),
             normals: vec![Vec3::new(-0.0, 0.0, 1.0); 4],
             triangles: vec![[0, 1, 2], [0, 2, 3]],
         }
@@ -56,7 +62,8 @@ mod tests {
 
     #[test]
     fn no_negative_zero_is_written() {
-        let position = object_space(DVec3::new(-0.0, 1.0, -0.0), Vec3::new(-0.0, -1.0, 0.0));
+        let space = CageSpace { centre: DVec3::new(-0.0, 1.0, -0.0), scale: 2.0 };
+        let position = object_space(&space, Vec3::new(-0.0, -2.0, 0.0));
         assert!(position.to_array().iter().all(|x| x.to_bits() == 0), "{position:?}");
         assert!(positive_zeros(Vec3::splat(-0.0)).to_array().iter().all(|x| x.to_bits() == 0));
     }

@@ -1,5 +1,5 @@
-//! Welded meshes as Wavefront OBJ. Text has no fixed precision: of the formats here it alone keeps every bit of
-//! cages far from the origin.
+//! Welded meshes as Wavefront OBJ. Text has no fixed precision: coordinates keep all bits however far they are from
+//! the origin.
 
 use super::{Mesh, positive_zeros};
 use std::io::{self, Write};
@@ -26,6 +26,7 @@ mod tests {
     use super::*;
     use crate::mesh::tests::square;
     use glam::{DVec3, Vec3};
+    use osculate::CageSpace;
 
     #[test]
     fn reads_back() {
@@ -42,12 +43,9 @@ mod tests {
 
     #[test]
     fn far_away_loses_nothing() {
-        let mesh = Mesh {
-            center: DVec3::splat(1e9),
-            positions: vec![Vec3::splat(0.001_f32)],
-            normals: vec![Vec3::Z],
-            triangles: vec![],
-        };
+        let mut mesh = square();
+        mesh.space = CageSpace { centre: DVec3::splat(1e9), scale: 1.0 };
+        mesh.positions[0] = Vec3::splat(0.001);
         let mut file = Vec::new();
         write(&mesh, &mut file).unwrap();
         let text = String::from_utf8(file).unwrap();

@@ -6,7 +6,8 @@
 
 use super::ply::{write_floats, write_triangle};
 use super::{object_space, positive_zeros};
-use glam::{DVec3, Vec3};
+use glam::Vec3;
+use osculate::CageSpace;
 use std::fs::File;
 use std::io::{self, BufWriter, Seek, Write};
 use std::path::Path;
@@ -14,7 +15,7 @@ use std::path::Path;
 /// A captured vertex with its place on the cage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct SoupVertex {
-    /// Position relative to the centre of the cage.
+    /// Position in cage space.
     pub(crate) position: Vec3,
     /// Unit normal, or zero.
     pub(crate) normal: Vec3,
@@ -28,7 +29,7 @@ pub(crate) struct SoupVertex {
 
 /// Vertices in the order of capture, three per triangle.
 pub(crate) struct Soup {
-    center: DVec3,
+    space: CageSpace,
     spool: BufWriter<File>,
     vertices: u64,
 }
@@ -37,19 +38,19 @@ impl Soup {
     /// Bytes of a vertex: eight floats and two ints.
     const VERTEX_BYTES: u64 = 40;
 
-    /// An empty soup with positions relative to `center`, spooled to a nameless file in the folder of `output`.
-    pub(crate) fn new(center: DVec3, output: &Path) -> io::Result<Self> {
+    /// An empty soup with positions in `space`, spooled to a nameless file in the folder of `output`.
+    pub(crate) fn new(space: CageSpace, output: &Path) -> io::Result<Self> {
         let folder = match output.parent() {
             Some(folder) if !folder.as_os_str().is_empty() => folder,
             _ => Path::new("."),
         };
-        Ok(Self { center, spool: BufWriter::new(tempfile::tempfile_in(folder)?), vertices: 0 })
+        Ok(Self { space, spool: BufWriter::new(tempfile::tempfile_in(folder)?), vertices: 0 })
     }
 
     /// Adds a vertex.
     pub(crate) fn push(&mut self, vertex: &SoupVertex) -> io::Result<()> {
         let out = &mut self.spool;
-        write_floats(out, object_space(self.center, vertex.position).as_vec3().to_array())?;
+        write_floats(out, object_space(&self.space, vertex.position).as_vec3().to_array())?;
         write_floats(out, positive_zeros(vertex.normal).to_array())?;
         out.write_all(&vertex.face.to_le_bytes())?;
         out.write_all(&vertex.sub.to_le_bytes())?;
@@ -84,11 +85,13 @@ impl Soup {
 mod tests {
     use super::*;
     use crate::mesh::ply::tests::{floats, split};
+    use glam::DVec3;
 
     #[test]
     fn reads_back() {
         let folder = tempfile::tempdir().unwrap();
-        let mut soup = Soup::new(DVec3::new(1.0, 2.0, -0.0), &folder.path().join("a.ply")).unwrap();
+        let space = CageSpace { centre: DVec3::new(1.0, 2.0, -0.0), scale: 1.0 };
+        let mut soup = Soup::new(space, &folder.path().join("a.ply")).unwrap();
         for i in 0..6_u8 {
             let st = [f32::from(i) / 8.0, -0.0];
             let position = Vec3::new(f32::from(i), 0.0, -0.0);
@@ -117,7 +120,7 @@ mod tests {
     #[test]
     fn the_spool_leaves_nothing_behind() {
         let folder = tempfile::tempdir().unwrap();
-        let soup = Soup::new(DVec3::ZERO, &folder.path().join("a.ply")).unwrap();
+        let soup = Soup::new(CageSpace { centre: DVec3::ZERO, scale: 1.0 }, &folder.path().join("a.ply")).unwrap();
         soup.write(&mut Vec::new()).unwrap();
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 0);
     }

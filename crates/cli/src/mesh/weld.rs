@@ -1,7 +1,8 @@
 //! Joins the corners of triangles into shared vertices.
 
 use super::Mesh;
-use glam::{DVec3, Vec3};
+use glam::Vec3;
+use osculate::CageSpace;
 use std::collections::HashMap;
 use std::hash::Hash;
 
@@ -12,9 +13,9 @@ pub(crate) struct Welder<Key> {
 }
 
 impl<Key: Hash + Eq> Welder<Key> {
-    /// An empty mesh with positions relative to `center`.
-    pub(crate) fn new(center: DVec3) -> Self {
-        Self { mesh: Mesh { center, ..Mesh::default() }, vertices: HashMap::new() }
+    /// An empty mesh with positions in `space`.
+    pub(crate) fn new(space: CageSpace) -> Self {
+        Self { mesh: Mesh::empty(space), vertices: HashMap::new() }
     }
 
     /// Adds a triangle: key, position and normal per corner. `None` when there are more vertices than fit 32 bits.
@@ -46,15 +47,18 @@ impl<Key: Hash + Eq> Welder<Key> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use glam::DVec3;
+
+    const SPACE: CageSpace = CageSpace { centre: DVec3::ONE, scale: 1.0 };
 
     #[test]
     fn equal_keys_become_one_vertex() {
-        let mut welder = Welder::new(DVec3::ONE);
+        let mut welder = Welder::new(SPACE);
         let corner = |key: u8| (key, Vec3::splat(f32::from(key)), Vec3::Z);
         welder.push([corner(0), corner(1), corner(2)]).unwrap();
         welder.push([corner(2), corner(1), corner(3)]).unwrap();
         let mesh = welder.finish();
-        assert_eq!(mesh.center, DVec3::ONE);
+        assert_eq!(mesh.space, SPACE);
         assert_eq!(mesh.positions.len(), 4);
         assert_eq!(mesh.triangles, [[0, 1, 2], [2, 1, 3]]);
         assert_eq!(mesh.positions[3], Vec3::splat(3.0));
@@ -62,7 +66,7 @@ mod tests {
 
     #[test]
     fn touching_points_with_other_keys_stay_apart() {
-        let mut welder = Welder::new(DVec3::ZERO);
+        let mut welder = Welder::new(SPACE);
         let corner = |key: u8| (key, Vec3::ZERO, Vec3::Z);
         welder.push([corner(0), corner(1), corner(2)]).unwrap();
         assert_eq!(welder.finish().positions.len(), 3);

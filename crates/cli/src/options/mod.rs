@@ -1,7 +1,17 @@
 //! Values of options, each parsed into something that cannot be wrong.
 
+mod camera;
+mod colour;
+mod level;
 mod output;
 mod scheme;
+mod size;
+mod tessellation;
 
+pub(crate) use camera::CameraArgs;
+pub(crate) use colour::Colour;
+pub(crate) use level::{Level, Pixels};
 pub(crate) use output::Output;
-pub(crate) use scheme::SchemeName;
+pub(crate) use scheme::{SchemeChoice, SchemeName};
+pub(crate) use size::Size;
+pub(crate) use tessellation::{DrawEvaluator, SpacingArg, TessellationArgs, adaptive};

@@ -1,9 +1,11 @@
 //! Names of schemes, and which of them this build can draw.
 
+use crate::failure::Failure;
+use osculate::Scheme;
 use std::fmt;
 use std::str::FromStr;
 
-/// A scheme by name, whether or not this build has it.
+/// A scheme by name, whether or not this build draws it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SchemeName {
     /// Gregory patches on the cage itself.
@@ -22,7 +24,7 @@ impl SchemeName {
     const ALL: [Self; 5] = [Self::Gregory1, Self::Gregory2, Self::Stam, Self::Biseptic, Self::Table];
 
     /// The name on the command line.
-    pub(crate) fn name(self) -> &'static str {
+    fn name(self) -> &'static str {
         match self {
             Self::Gregory1 => "gregory1",
             Self::Gregory2 => "gregory2",
@@ -30,6 +32,17 @@ impl SchemeName {
             Self::Biseptic => "biseptic",
             Self::Table => "table",
         }
+    }
+
+    /// The scheme, if this build draws it.
+    pub(crate) fn in_this_build(self) -> Result<Scheme, Failure> {
+        self.name().parse().map_err(|unknown| {
+            let failure = Failure::usage(unknown);
+            match self {
+                Self::Stam => failure.with_hint("sample --evaluator reference evaluates stam, the exact limit surface"),
+                _ => failure.with_hint("leave --scheme away for the default, gregory2"),
+            }
+        })
     }
 }
 
@@ -45,5 +58,65 @@ impl FromStr for SchemeName {
     fn from_str(text: &str) -> Result<Self, String> {
         let found = Self::ALL.into_iter().find(|scheme| scheme.name() == text);
         found.ok_or_else(|| format!("the schemes are {}", Self::ALL.map(Self::name).join(", ")))
+    }
+}
+
+/// A scheme, or every one that this build draws.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum SchemeChoice {
+    /// Every scheme of this build.
+    All,
+    /// One scheme.
+    One(SchemeName),
+}
+
+impl SchemeChoice {
+    /// The schemes that a list of choices stands for, each once, in the order of the list.
+    pub(crate) fn schemes(choices: &[Self]) -> Result<Vec<Scheme>, Failure> {
+        let mut schemes = Vec::new();
+        for choice in choices {
+            let meant = match choice {
+                Self::All => Scheme::ALL.to_vec(),
+                Self::One(name) => vec![name.in_this_build()?],
+            };
+            for scheme in meant {
+                if !schemes.contains(&scheme) {
+                    schemes.push(scheme);
+                }
+            }
+        }
+        Ok(schemes)
+    }
+}
+
+impl FromStr for SchemeChoice {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if text == "all" {
+            return Ok(Self::All);
+        }
+        text.parse().map(Self::One).map_err(|error: String| format!("{error}; or all"))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_name_each_scheme_once() {
+        let choices = ["gregory2", "all", "gregory2"].map(|text| text.parse().unwrap());
+        let schemes = SchemeChoice::schemes(&choices).unwrap();
+        assert_eq!(schemes.len(), Scheme::ALL.len());
+        assert_eq!(schemes[0], Scheme::Gregory2);
+    }
+
+    #[test]
+    fn every_scheme_of_the_build_has_a_name_here() {
+        for scheme in Scheme::ALL {
+            assert_eq!(scheme.name().parse::<SchemeName>().unwrap().in_this_build().unwrap(), *scheme);
+        }
+        assert!("nurbs".parse::<SchemeChoice>().is_err());
     }
 }

@@ -1,6 +1,7 @@
 //! Points on a surface, where they come from and how what was found there is printed.
 
 mod csv;
+pub(crate) mod drawn;
 pub(crate) mod exact;
 mod grid;
 mod list;

@@ -1,10 +1,8 @@
 //! What every command promises: help, exit codes, one line of error.
 
-mod support;
-
+use crate::support::{CAGE, command, osculate};
 use std::fs;
 use std::process::Stdio;
-use support::{CAGE, command, osculate};
 use tempfile::tempdir;
 
 #[test]

@@ -1,10 +1,8 @@
 //! `osculate compare`.
 
-mod support;
-
+use crate::support::osculate;
 use osculate_compare::{Picture, load};
 use std::path::Path;
-use support::osculate;
 use tempfile::{TempDir, tempdir};
 
 fn write(path: &Path, grey: u8, width: u32) {

@@ -1,0 +1,173 @@
+//! `check`: the proof that the drawn surface has no cracks.
+
+use crate::args::GlobalArgs;
+use crate::device::with_engine;
+use crate::failure::{Failure, Verdict};
+use crate::input::InputArgs;
+use crate::options::{CameraArgs, DrawEvaluator, Level, Pixels, SchemeChoice, SpacingArg, adaptive};
+use crate::progress::Progress;
+use crate::stdout;
+use clap::Args;
+use osculate::{CheckReport, Engine, Factors, Scheme, Surface, SurfaceDesc, Tessellation, check};
+use osculate_cage::Bounds;
+use serde_json::{Value, json};
+
+/// Prove that the triangles which the device draws close without cracks. Corners of triangles that lie on a common edge or
+/// vertex of the cage's patches must have the same bits in position and normal, whichever patch drew them, and the triangles
+/// must close over them. Prints a line per scheme and level:
+///
+/// triangles, and what must be zero: open (edges without a partner), over_shared (edges with too many), split_normals (corners
+/// that differ), inverted (triangles the wrong way round). Degenerate triangles are counted and allowed. Beside it stands the
+/// same question asked of positions alone.
+///
+/// Exit code 1 means that a proof failed.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct CheckArgs {
+    #[command(flatten)]
+    input: InputArgs,
+
+    /// Schemes to prove, with commas between; all: every scheme of this build.
+    #[arg(long, alias = "scheme", value_name = "SCHEMES", value_delimiter = ',', default_value = "all")]
+    schemes: Vec<SchemeChoice>,
+
+    /// Levels to prove: segments per patch edge, real numbers from 1 to 64.
+    #[arg(long, alias = "level", value_name = "LEVELS", value_delimiter = ',', default_value = "1,5,8")]
+    levels: Vec<Level>,
+
+    /// How levels that are not integers are met.
+    #[arg(long, value_name = "SPACING", default_value = "equal")]
+    spacing: SpacingArg,
+
+    /// Prove the tessellation whose edges are about this many pixels long in the camera's picture; --levels is ignored.
+    #[arg(long, value_name = "PX")]
+    adaptive: Option<Pixels>,
+
+    /// Who evaluates the surface.
+    #[arg(long, value_name = "EVALUATOR", default_value = "auto")]
+    evaluator: DrawEvaluator,
+
+    /// Print one JSON object per line.
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    camera: CameraArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  osculate check cube.obj
+  osculate check cube.obj --levels 1,2.5,64 --spacing odd --json
+  osculate check cube.obj --adaptive 4 --camera 1,0,1:0,0,0:0,1,0:60";
+
+/// Proofs that can be tried.
+pub(crate) struct Job {
+    input: InputArgs,
+    schemes: Vec<Scheme>,
+    fineness: Fineness,
+    spacing: SpacingArg,
+    json: bool,
+    camera: CameraArgs,
+}
+
+/// What decides the tessellation factors.
+enum Fineness {
+    Levels(Vec<Level>),
+    Adaptive(Pixels),
+}
+
+impl CheckArgs {
+    /// Checks the schemes.
+    pub(crate) fn validate(self) -> Result<Job, Failure> {
+        Ok(Job {
+            schemes: SchemeChoice::schemes(&self.schemes)?,
+            input: self.input,
+            fineness: self.adaptive.map_or(Fineness::Levels(self.levels), Fineness::Adaptive),
+            spacing: self.spacing,
+            json: self.json,
+            camera: self.camera,
+        })
+    }
+}
+
+/// Tries the proofs and prints what came of them.
+pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
+    let input = job.input.read()?;
+    let cases = job.cases(input.cage.bounds())?;
+    let progress = Progress::new(global.quiet, (job.schemes.len() * cases.len()) as u64, "proving");
+    with_engine(global, |engine: &Engine| {
+        let mut watertight = true;
+        for &scheme in &job.schemes {
+            let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
+            let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
+            for case in &cases {
+                let report = check(&surface, &case.tessellation)?;
+                watertight &= report.is_watertight();
+                job.print(scheme, case, &report)?;
+                progress.advance(1);
+            }
+        }
+        Ok(Verdict::of(watertight))
+    })
+}
+
+/// A tessellation, and how it is called in the results.
+struct Case {
+    tessellation: Tessellation,
+    key: &'static str,
+    value: f32,
+}
+
+impl Job {
+    fn cases(&self, bounds: Bounds) -> Result<Vec<Case>, Failure> {
+        let case = |key, value, factors| {
+            let tessellation = Tessellation { factors, spacing: self.spacing.into() };
+            Case { tessellation, key, value }
+        };
+        Ok(match &self.fineness {
+            Fineness::Levels(levels) => {
+                levels.iter().map(|level| case("level", level.get(), Factors::Uniform(level.get()))).collect()
+            }
+            Fineness::Adaptive(pixels) => {
+                vec![case("adaptive", pixels.get(), adaptive(*pixels, &self.camera, bounds)?)]
+            }
+        })
+    }
+
+    fn print(&self, scheme: Scheme, case: &Case, report: &CheckReport) -> Result<(), Failure> {
+        if self.json {
+            return stdout::print_json(&self.object(scheme, case, report));
+        }
+        stdout::print_line(self.line(scheme, case, report))
+    }
+
+    fn line(&self, scheme: Scheme, case: &Case, report: &CheckReport) -> String {
+        let CheckReport { triangles, open, over_shared, split_normals, inverted, degenerate, weld, .. } = report;
+        let (key, value, spacing) = (case.key, case.value, self.spacing.name());
+        let verdict = if report.is_watertight() { "watertight" } else { "NOT WATERTIGHT" };
+        format!(
+            "{scheme} {key} {value} {spacing}: {triangles} triangles, {open} open, {over_shared} over_shared, \
+             {split_normals} split_normals, {inverted} inverted, {degenerate} degenerate; \
+             by position {} open, {} over_shared: {verdict}",
+            weld.open, weld.over_shared
+        )
+    }
+
+    fn object(&self, scheme: Scheme, case: &Case, report: &CheckReport) -> Value {
+        json!({
+            "scheme": scheme.name(),
+            case.key: case.value,
+            "spacing": self.spacing.name(),
+            "triangles": report.triangles,
+            "open": report.open,
+            "over_shared": report.over_shared,
+            "split_positions": report.split_positions,
+            "split_normals": report.split_normals,
+            "inverted": report.inverted,
+            "degenerate": report.degenerate,
+            "weld": { "open": report.weld.open, "over_shared": report.weld.over_shared },
+            "watertight": report.is_watertight(),
+        })
+    }
+}

@@ -1,0 +1,165 @@
+//! `export`: the triangles that the device drew.
+
+use crate::args::GlobalArgs;
+use crate::device::with_engine;
+use crate::failure::{Failure, Verdict, WriteError};
+use crate::input::InputArgs;
+use crate::mesh::soup::{Soup, SoupVertex};
+use crate::mesh::{Mesh, Welder, glb, obj, ply, stl};
+use crate::options::{CameraArgs, Output, SchemeName, TessellationArgs};
+use crate::progress::Progress;
+use clap::Args;
+use glam::Vec3;
+use osculate::{CapturedVertex, Engine, Scheme, SubFace, Surface, SurfaceDesc, Tessellation, VertexKey};
+use osculate_compare::whole_file;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+/// Write the triangles that the device draws to a file: .ply (binary), .obj, .glb or .stl (binary). Vertices on common edges
+/// are joined, so that a closed cage gives a closed mesh. PLY, GLB and STL hold 32-bit numbers; OBJ keeps all digits of
+/// cages far from the origin.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct ExportArgs {
+    #[command(flatten)]
+    input: InputArgs,
+
+    /// The mesh to write; the ending says the format.
+    #[arg(short, long, value_name = "FILE.{ply,obj,glb,stl}")]
+    output: PathBuf,
+
+    /// How the surface is put together.
+    #[arg(long, alias = "schemes", value_name = "SCHEME", default_value = "gregory2")]
+    scheme: SchemeName,
+
+    /// Give each triangle three vertices of its own, in the order in which the device drew them, each with its place on the
+    /// cage: face, sub, s, t as in the command sample. PLY only.
+    #[arg(long)]
+    no_weld: bool,
+
+    #[command(flatten)]
+    tessellation: TessellationArgs,
+
+    #[command(flatten)]
+    camera: CameraArgs,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  osculate export cube.obj -o smooth.glb
+  osculate export cube.obj --level 16 -o smooth.ply
+  osculate export cube.obj --level 2.5 --spacing odd --no-weld -o triangles.ply";
+
+/// Formats of meshes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    Ply,
+    /// PLY without joined vertices.
+    Soup,
+    Obj,
+    Glb,
+    Stl,
+}
+
+/// An export that can be made.
+pub(crate) struct Job {
+    input: InputArgs,
+    output: Output<Format>,
+    scheme: Scheme,
+    tessellation: TessellationArgs,
+    camera: CameraArgs,
+}
+
+impl ExportArgs {
+    /// Checks the scheme, the place and the format of the output.
+    pub(crate) fn validate(self) -> Result<Job, Failure> {
+        let formats = [("ply", Format::Ply), ("obj", Format::Obj), ("glb", Format::Glb), ("stl", Format::Stl)];
+        let mut output = Output::new(self.output, &formats)?;
+        if self.no_weld {
+            output.format = match output.format {
+                Format::Ply => Format::Soup,
+                _ => return Err(Failure::usage("--no-weld writes PLY only").with_hint("end the output's name in .ply")),
+            };
+        }
+        let scheme = self.scheme.in_this_build()?;
+        Ok(Job { input: self.input, output, scheme, tessellation: self.tessellation, camera: self.camera })
+    }
+}
+
+/// Draws into memory and writes the triangles.
+pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
+    let input = job.input.read()?;
+    let tessellation = job.tessellation.tessellation(&job.camera, input.cage.bounds())?;
+    let desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary) };
+    with_engine(global, |engine: &Engine| {
+        let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
+        let progress = Progress::new(global.quiet, surface.plan().patches.len() as u64, "drawing");
+        let drawing = Drawing { surface: &surface, tessellation, progress };
+        let path = &job.output.path;
+        drawing.export(job.output.format, path).map_err(|error| error.to(path))
+    })?;
+    Ok(Verdict::Pass)
+}
+
+/// A surface about to be drawn into memory.
+struct Drawing<'a> {
+    surface: &'a Surface,
+    tessellation: Tessellation,
+    progress: Progress,
+}
+
+impl Drawing<'_> {
+    fn export(&self, format: Format, path: &Path) -> Result<(), WriteError> {
+        let writer: fn(&Mesh, &mut dyn Write) -> io::Result<()> = match format {
+            Format::Soup => {
+                let soup = self.soup(path)?;
+                return Ok(whole_file::write(path, |out| soup.write(out))?);
+            }
+            Format::Ply => ply::write,
+            Format::Obj => obj::write,
+            Format::Glb => glb::write,
+            Format::Stl => stl::write,
+        };
+        let mesh = self.welded()?;
+        Ok(whole_file::write(path, |out| writer(&mesh, out))?)
+    }
+
+    /// All triangles, with one vertex per key.
+    fn welded(&self) -> Result<Mesh, WriteError> {
+        let mut welder = Welder::new(*self.surface.space());
+        self.capture(|triangle| {
+            let corner = |vertex: &CapturedVertex| {
+                let key = VertexKey::of(self.surface.plan(), vertex);
+                (key, Vec3::from(vertex.position), Vec3::from(vertex.normal))
+            };
+            let joined = welder.push([0, 1, 2].map(|i| corner(&triangle[i])));
+            joined.ok_or_else(|| Failure::usage("more vertices than 32-bit indices can count; lower the level").into())
+        })?;
+        Ok(welder.finish())
+    }
+
+    /// All triangles as they come.
+    fn soup(&self, path: &Path) -> Result<Soup, WriteError> {
+        let mut soup = Soup::new(*self.surface.space(), path)?;
+        self.capture(|triangle| triangle.iter().try_for_each(|vertex| Ok(soup.push(&self.placed(vertex))?)))?;
+        Ok(soup)
+    }
+
+    fn placed(&self, vertex: &CapturedVertex) -> SoupVertex {
+        let location = self.surface.locate(vertex.patch);
+        let SubFace { face, sub } = location.sub_face;
+        let st = location.st(vertex.uv.map(f64::from));
+        let (position, normal) = (Vec3::from(vertex.position), Vec3::from(vertex.normal));
+        SoupVertex { position, normal, face: face as i32, sub, st: st.map(|x| x as f32) }
+    }
+
+    /// Hands the triangles on, one by one.
+    fn capture(&self, mut sink: impl FnMut(&[CapturedVertex; 3]) -> Result<(), WriteError>) -> Result<(), WriteError> {
+        self.surface.capture(&self.tessellation, |vertices| {
+            vertices.as_chunks::<3>().0.iter().try_for_each(&mut sink)?;
+            let patches = vertices.chunk_by(|a, b| a.patch == b.patch).count();
+            self.progress.advance(patches as u64);
+            Ok(())
+        })
+    }
+}

@@ -1,0 +1,155 @@
+//! `inspect`: what a cage is made of.
+
+use crate::failure::{Failure, Verdict};
+use crate::input::InputArgs;
+use crate::stdout;
+use clap::Args;
+use osculate::{PatchKind, Scheme, SurfacePlan};
+use osculate_cage::{Cage, Inspection, inspect};
+use osculate_subdiv::PlanDesc;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::fmt::{Display, Write};
+
+/// Say what a cage is made of: vertices, faces, valences, boundaries, tags, the patches that each scheme makes of it, and
+/// what may be a mistake. A readable cage exits with 0, whatever its problems; exit code 3 means that it cannot be read or is
+/// refused.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct InspectArgs {
+    #[command(flatten)]
+    input: InputArgs,
+
+    /// Print one JSON object instead of text.
+    #[arg(long)]
+    json: bool,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  osculate inspect cube.obj
+  osculate inspect cube.obj --json";
+
+/// A cage to look at.
+pub(crate) struct Job {
+    input: InputArgs,
+    json: bool,
+}
+
+impl InspectArgs {
+    /// Nothing can be wrong.
+    pub(crate) fn validate(self) -> Result<Job, Failure> {
+        Ok(Job { input: self.input, json: self.json })
+    }
+}
+
+/// What is printed as JSON.
+#[derive(Serialize)]
+struct Findings {
+    #[serde(flatten)]
+    cage: Inspection,
+    /// What each scheme of this build makes of the cage.
+    schemes: BTreeMap<&'static str, SchemePlan>,
+    /// What keeps the schemes from drawing the cage; absent if nothing does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    not_drawn: Option<String>,
+}
+
+/// The patches that a scheme makes of a cage.
+#[derive(Serialize)]
+struct SchemePlan {
+    patches: usize,
+    by_kind: BTreeMap<String, u64>,
+    steps: u32,
+    bytes: usize,
+}
+
+/// Looks at the cage and prints what there is.
+pub(crate) fn run(job: &Job) -> Result<Verdict, Failure> {
+    let input = job.input.read_silently()?;
+    let findings = Findings::new(&input.cage, &PlanDesc { boundary: Some(input.boundary) });
+    if job.json {
+        stdout::print_json(&findings)?;
+    } else {
+        stdout::print_line(findings.text().trim_end())?;
+    }
+    Ok(Verdict::Pass)
+}
+
+impl Findings {
+    fn new(cage: &Cage, desc: &PlanDesc) -> Self {
+        let plan = SurfacePlan::build(cage, desc);
+        let not_drawn = plan.as_ref().err().map(ToString::to_string);
+        // The schemes of this build differ in their formulas, not in their patches.
+        let schemes =
+            plan.map(|plan| Scheme::ALL.iter().map(|scheme| (scheme.name(), SchemePlan::new(&plan))).collect());
+        Self { cage: inspect(cage), schemes: schemes.unwrap_or_default(), not_drawn }
+    }
+
+    fn text(&self) -> String {
+        let cage = &self.cage;
+        let mut text = String::new();
+        let mut row = |name: &str, value: &dyn Display| {
+            writeln!(text, "{name:16} {value}").expect("writing to a string does not fail");
+        };
+        row("vertices", &cage.vertices);
+        row("edges", &cage.edges);
+        row("faces", &cage.faces);
+        row("face sizes", &histogram(&cage.faces_by_size));
+        row("valences", &histogram(&cage.valence));
+        if !cage.boundary_valence.is_empty() {
+            row("at the boundary", &histogram(&cage.boundary_valence));
+        }
+        row("boundary edges", &format_args!("{} in {} curves", cage.boundary_edges, cage.boundaries));
+        row("components", &cage.components);
+        row("genus", &cage.genus);
+        row("euler", &cage.euler);
+        row("tags", &format_args!("{} creases, {} corners, {} holes", cage.creases, cage.corners, cage.holes));
+        for (name, plan) in &self.schemes {
+            row(name, plan);
+        }
+        if let Some(reason) = &self.not_drawn {
+            row("not drawn", reason);
+        }
+        for problem in &cage.problems {
+            row("problem", problem);
+        }
+        if cage.problems.is_empty() {
+            row("problems", &"none");
+        }
+        text
+    }
+}
+
+/// `value x count` pairs, or `none`.
+fn histogram(counts: &BTreeMap<u32, usize>) -> String {
+    let pairs: Vec<String> = counts.iter().map(|(value, count)| format!("{value} (x{count})")).collect();
+    if pairs.is_empty() { "none".into() } else { pairs.join(", ") }
+}
+
+impl SchemePlan {
+    fn new(plan: &SurfacePlan) -> Self {
+        let mut by_kind = BTreeMap::new();
+        for list in &plan.lists {
+            *by_kind.entry(kind_name(list.kind)).or_default() += u64::from(list.count);
+        }
+        Self { patches: plan.patches.len(), by_kind, steps: plan.steps(), bytes: plan.bytes() }
+    }
+}
+
+fn kind_name(kind: PatchKind) -> String {
+    match kind {
+        PatchKind::Regular => "regular".into(),
+        PatchKind::Extraordinary { valence } => format!("valence_{valence}"),
+        PatchKind::Coefficients => "coefficients".into(),
+    }
+}
+
+impl Display for SchemePlan {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let kinds: Vec<String> = self.by_kind.iter().map(|(kind, count)| format!("{kind} {count}")).collect();
+        let steps = if self.steps == 1 { "step" } else { "steps" };
+        let Self { patches, steps: count, bytes, .. } = self;
+        write!(out, "{patches} patches ({}) after {count} {steps}, {bytes} bytes of tables", kinds.join(", "))
+    }
+}

@@ -1,0 +1,171 @@
+//! `render`: a picture.
+
+use crate::args::GlobalArgs;
+use crate::device::with_engine;
+use crate::failure::{Failure, Verdict};
+use crate::input::InputArgs;
+use crate::options::{CameraArgs, Colour, Output, SchemeName, TessellationArgs};
+use crate::progress::Progress;
+use clap::{Args, ValueEnum};
+use osculate::{Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, render};
+use osculate_cage::Cage;
+use osculate_compare::Picture;
+use std::path::PathBuf;
+
+/// Draw the surface of a cage to a PNG file. No window is needed.
+#[derive(Args, Debug)]
+#[command(after_help = EXAMPLES)]
+pub(crate) struct RenderArgs {
+    #[command(flatten)]
+    input: InputArgs,
+
+    /// The picture to write.
+    #[arg(short, long, value_name = "FILE.png")]
+    output: PathBuf,
+
+    /// How the surface is put together.
+    #[arg(long, alias = "schemes", value_name = "SCHEME", default_value = "gregory2")]
+    scheme: SchemeName,
+
+    #[command(flatten)]
+    look: LookArgs,
+
+    #[command(flatten)]
+    tessellation: TessellationArgs,
+
+    #[command(flatten)]
+    camera: CameraArgs,
+}
+
+/// What the picture looks like.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Look")]
+struct LookArgs {
+    /// What the colours mean.
+    #[arg(long, value_name = "SHADE", default_value = "lit")]
+    shade: ShadeArg,
+
+    /// Draw the edges of the cage too.
+    #[arg(long)]
+    cage: bool,
+
+    /// Samples per pixel, which smooth the outlines: 1, 2, 4 or 8, as far as the device has them. Default: 4, for the
+    /// shade peer 1.
+    #[arg(long, value_name = "N", value_parser = samples)]
+    samples: Option<u32>,
+
+    /// Colour behind the surface: #RRGGBB, #RRGGBBAA, black, white or transparent. Default: dark grey.
+    #[arg(long, value_name = "COLOUR")]
+    background: Option<Colour>,
+}
+
+/// Names of the shades.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ShadeArg {
+    /// Clay under three lights.
+    Lit,
+    /// The direction of the surface as a colour.
+    Normals,
+    /// The patches by kind.
+    Patches,
+    /// The patches by the valence of their irregular vertex.
+    Valence,
+    /// Lit, with the edges of the triangles.
+    Wireframe,
+    /// Reflected stripes: kinks show where the surface is not smooth.
+    Zebra,
+    /// Mean curvature.
+    Curvature,
+    /// A two-sided headlight without sRGB encoding, for comparisons with other renderers.
+    Peer,
+}
+
+impl From<ShadeArg> for Shade {
+    fn from(arg: ShadeArg) -> Self {
+        match arg {
+            ShadeArg::Lit => Self::Lit,
+            ShadeArg::Normals => Self::Normals,
+            ShadeArg::Patches => Self::Patches,
+            ShadeArg::Valence => Self::Valence,
+            ShadeArg::Wireframe => Self::Wireframe,
+            ShadeArg::Zebra => Self::Zebra,
+            ShadeArg::Curvature => Self::Curvature,
+            ShadeArg::Peer => Self::Peer,
+        }
+    }
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  osculate render cube.obj -o cube.png
+  osculate render cube.obj -o cube.png --shade patches --cage --size 800x600
+  osculate render cube.obj -o close.png --camera 2,1,3:0,0,0:0,1,0:30 --adaptive 6 --background white";
+
+/// Grey of the shade `peer`, the same number in all channels of a picture without sRGB encoding.
+const PEER_BACKGROUND: [f32; 4] = [0.1, 0.1, 0.1, 1.0];
+
+fn samples(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|n| [1, 2, 4, 8].contains(n)).ok_or_else(|| "expected 1, 2, 4 or 8".into())
+}
+
+/// A picture that can be asked for.
+pub(crate) struct Job {
+    input: InputArgs,
+    output: Output<()>,
+    scheme: Scheme,
+    look: LookArgs,
+    tessellation: TessellationArgs,
+    camera: CameraArgs,
+}
+
+impl RenderArgs {
+    /// Checks the scheme and the place of the output.
+    pub(crate) fn validate(self) -> Result<Job, Failure> {
+        Ok(Job {
+            output: Output::new(self.output, &[("png", ())])?,
+            scheme: self.scheme.in_this_build()?,
+            input: self.input,
+            look: self.look,
+            tessellation: self.tessellation,
+            camera: self.camera,
+        })
+    }
+}
+
+/// Draws and writes the picture.
+pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
+    let _progress = Progress::waiting(global.quiet, "drawing");
+    let input = job.input.read()?;
+    let desc = job.desc(&input.cage)?;
+    let surface_desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary) };
+    let draw = |engine: &Engine| {
+        let surface = Surface::new(engine, &input.cage, &surface_desc).map_err(|error| job.input.refuse(error))?;
+        Ok(render(engine, &[&surface], &desc)?)
+    };
+    let drawn = with_engine(global, draw)?;
+    let [width, height] = drawn.size;
+    let picture = Picture::new(width, height, drawn.rgba).map_err(Failure::device)?;
+    picture.write(&job.output.path).map_err(Failure::usage)?;
+    Ok(Verdict::Pass)
+}
+
+impl Job {
+    fn desc(&self, cage: &Cage) -> Result<RenderDesc, Failure> {
+        let camera = self.camera.camera(cage.bounds())?;
+        let size = [self.camera.size.width, self.camera.size.height];
+        let default = RenderDesc::fit(cage, size);
+        let shade = Shade::from(self.look.shade);
+        let is_peer = shade == Shade::Peer;
+        let default_background = if is_peer { PEER_BACKGROUND } else { default.background };
+        let encoded = |colour: Colour| if is_peer { colour.plain() } else { colour.linear() };
+        Ok(RenderDesc {
+            camera,
+            tessellation: self.tessellation.tessellation(&self.camera, cage.bounds())?,
+            shade,
+            cage: self.look.cage,
+            samples: self.look.samples.unwrap_or(if is_peer { 1 } else { default.samples }),
+            background: self.look.background.map_or(default_background, encoded),
+            ..default
+        })
+    }
+}

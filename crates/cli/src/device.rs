@@ -1,0 +1,72 @@
+//! The device that a command runs on.
+
+use crate::args::GlobalArgs;
+use crate::failure::{Failure, Verdict};
+use crate::stdout;
+use osculate::{Device, DeviceDesc, DeviceError, DeviceInfo, Engine, EngineError, PlanError, devices};
+
+/// Opens the device that was asked for, hands it to `work`, and fails if validation had anything to say.
+pub(crate) fn with_engine<T>(
+    global: &GlobalArgs,
+    work: impl FnOnce(&Engine) -> Result<T, Failure>,
+) -> Result<T, Failure> {
+    let desc =
+        DeviceDesc { select: global.device.clone(), validation: global.validation, application: "osculate".to_owned() };
+    let engine = Engine::new(Device::new(&desc)?);
+    let info = engine.device().info();
+    tracing::info!("device {}: {}, {} {}", info.index, info.name, info.driver_name, info.driver_info);
+    let result = work(&engine);
+    for message in engine.device().validation_messages() {
+        tracing::error!("{message}");
+    }
+    let count = engine.device().validation_messages().len();
+    let done = result?;
+    if count > 0 {
+        return Err(Failure::device(format_args!("validation had {count} messages; they stand above")));
+    }
+    Ok(done)
+}
+
+/// Prints a line per device.
+pub(crate) fn list() -> Result<Verdict, Failure> {
+    let devices = devices()?;
+    if devices.is_empty() {
+        return Err(DeviceError::NoDevice.into());
+    }
+    let width = devices.iter().map(|device| device.name.chars().count()).max().unwrap_or_default();
+    for device in &devices {
+        stdout::print_line(line(device, width))?;
+    }
+    Ok(Verdict::Pass)
+}
+
+/// Index, name, kind, driver, and what keeps the device from being used.
+fn line(device: &DeviceInfo, name_width: usize) -> String {
+    let DeviceInfo { index, name, kind, driver_name, driver_info, api_version, missing, .. } = device;
+    // A kind formats without regard to a width.
+    let kind = kind.to_string();
+    let usable = if missing.is_empty() { String::new() } else { format!("  (unusable: lacks {})", missing.join(", ")) };
+    format!("{index:>2}  {name:name_width$}  {kind:10}  {driver_name} {driver_info}, Vulkan {api_version}{usable}")
+}
+
+impl From<DeviceError> for Failure {
+    fn from(error: DeviceError) -> Self {
+        let failure = Self::device(&error);
+        match error {
+            DeviceError::NoMatch { .. } | DeviceError::MissingFeature { .. } => {
+                failure.with_hint("--list-devices shows the devices of this machine")
+            }
+            _ => failure,
+        }
+    }
+}
+
+impl From<EngineError> for Failure {
+    fn from(error: EngineError) -> Self {
+        match error {
+            EngineError::Plan(PlanError::NothingToDraw { .. } | PlanError::TooLarge { .. }) => Self::input(error),
+            EngineError::Level { .. } => Self::usage(error),
+            _ => Self::device(error),
+        }
+    }
+}

@@ -1,0 +1,11 @@
+//! The command from outside: what it prints, writes and exits with.
+
+mod check;
+mod command_line;
+mod compare;
+mod device;
+mod export;
+mod inspect;
+mod render;
+mod sample;
+mod support;
