@@ -58,7 +58,7 @@ impl Camera {
             return Err(CameraError::NoDirection(eye, at));
         }
         let sine = (at - eye).normalize().cross(up.normalize_or_zero()).length();
-        if !(sine > 1e-9) {
+        if sine.is_nan() || sine <= 1e-9 {
             return Err(CameraError::NoUp(up));
         }
         if !(fovy > 0.0 && fovy < std::f64::consts::PI) {

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use osculate_gpu::{BufferDesc, BufferUsage, CapturePass, Memory, Recording};
 use osculate_shaders::binding;
 
-use crate::draw::{Output, Run, patches_per_draw, runs};
+use crate::draw::{Output, patches_per_draw, runs};
 use crate::frame::FrameDesc;
 use crate::{EngineError, Shade, Surface, Tessellation};
 
@@ -55,12 +55,9 @@ impl Surface {
         let buffer = device.buffer(&desc).map_err(EngineError::from)?;
         let longest = patches_per_draw(self.engine(), segments).min((size / patch_bytes(segments)) as u32);
         let mut runs = runs(&self.plan().lists, longest).peekable();
-        while let Some(first) = runs.peek().copied() {
+        while runs.peek().is_some() {
             let (mut draws, mut room) = (Vec::new(), size);
-            // A pass holds draws of one list: pipelines must not change while transform feedback is active.
-            let fits =
-                |run: &Run<'_>, room| run.list == first.list && u64::from(run.count) * patch_bytes(segments) <= room;
-            while let Some(run) = runs.next_if(|run| fits(run, room)) {
+            while let Some(run) = runs.next_if(|run| u64::from(run.count) * patch_bytes(segments) <= room) {
                 room -= u64::from(run.count) * patch_bytes(segments);
                 draws.push(self.draw(run, &bindings, tessellation, Output::Capture)?);
             }

@@ -25,6 +25,17 @@ pub enum PatchKind {
     Coefficients,
 }
 
+impl PatchKind {
+    /// The number by which shaders know how to evaluate it (`KIND_*` in shaders/include/constants.glsl).
+    pub const fn number(self) -> u32 {
+        match self {
+            Self::Regular => 0,
+            Self::Extraordinary { .. } => 1,
+            Self::Coefficients => 2,
+        }
+    }
+}
+
 /// Patches of one kind, drawn by one pipeline: `count` patches from the global number `first_patch`, their nets from `first_index` of
 /// [`crate::SurfacePlan::nets`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,12 +79,7 @@ impl PatchRecord {
     pub const VALENCE_SHIFT: u32 = 8;
 
     pub(crate) fn make_tag(kind: PatchKind, boundary: bool, valence: u32) -> u32 {
-        let kind = match kind {
-            PatchKind::Regular => 0,
-            PatchKind::Extraordinary { .. } => 1,
-            PatchKind::Coefficients => 2,
-        };
-        kind | if boundary { Self::BOUNDARY } else { 0 } | valence << Self::VALENCE_SHIFT
+        kind.number() | if boundary { Self::BOUNDARY } else { 0 } | valence << Self::VALENCE_SHIFT
     }
 
     /// Number of edges at corner 0.

@@ -3,11 +3,34 @@
 
 use crate::module::SpirvModule;
 use osculate_shader_compiler::{CompileDesc, compile};
-use osculate_shaders::SHADERS;
 use osculate_shaders::layout::{LAYOUTS, StructLayout};
+use osculate_shaders::{SHADERS, constant};
+use osculate_subdiv::{PatchKind, PatchRecord};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Op};
 use std::collections::{BTreeMap, BTreeSet};
+use std::mem::offset_of;
+
+/// Fields of a struct of the plan, which knows nothing of shaders.
+macro_rules! plan_struct {
+    ($type:ident { $($field:ident),* }) => {
+        StructLayout {
+            name: stringify!($type),
+            fields: &[$((stringify!($field), offset_of!(osculate_subdiv::$type, $field)),)*],
+            size: size_of::<osculate_subdiv::$type>(),
+        }
+    };
+}
+
+const PLAN_LAYOUTS: [StructLayout; 2] = [
+    plan_struct!(PatchRecord { vertex, edge, net, basis, net_size, tag }),
+    plan_struct!(MatrixSource { net, weights, columns }),
+];
+
+/// Every struct that host and shaders share.
+fn shared() -> impl Iterator<Item = &'static StructLayout> {
+    LAYOUTS.iter().chain(&PLAN_LAYOUTS)
+}
 
 /// A struct or block as a shader sees it.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -25,7 +48,7 @@ fn shared_structs_agree_with_the_shaders() {
     for shader in SHADERS {
         let module = SpirvModule::load(shader.spirv);
         for (name, device) in structs_in_memory(&module) {
-            let Some(host) = LAYOUTS.iter().find(|layout| layout.name == name) else {
+            let Some(host) = shared().find(|layout| layout.name == name) else {
                 continue;
             };
             used.insert(host.name);
@@ -34,7 +57,7 @@ fn shared_structs_agree_with_the_shaders() {
             );
         }
     }
-    faults.extend(LAYOUTS.iter().filter(|layout| !used.contains(layout.name)).map(|layout| {
+    faults.extend(shared().filter(|layout| !used.contains(layout.name)).map(|layout| {
         format!("no shader has a struct or block {}; is it still shared, and named alike on both sides?", layout.name)
     }));
     assert!(faults.is_empty(), "host and device disagree:\n{}", faults.join("\n"));
@@ -42,8 +65,18 @@ fn shared_structs_agree_with_the_shaders() {
 
 #[test]
 fn shared_structs_have_distinct_names() {
-    let names: BTreeSet<&str> = LAYOUTS.iter().map(|layout| layout.name).collect();
-    assert_eq!(names.len(), LAYOUTS.len());
+    let names: BTreeSet<&str> = shared().map(|layout| layout.name).collect();
+    assert_eq!(names.len(), shared().count());
+}
+
+#[test]
+fn tags_of_patches_have_the_same_bits_on_both_sides() {
+    let kinds = [PatchKind::Regular, PatchKind::Extraordinary { valence: 5 }, PatchKind::Coefficients];
+    let numbers = [constant::KIND_REGULAR, constant::KIND_EXTRAORDINARY, constant::KIND_COEFFICIENTS];
+    assert_eq!(kinds.map(PatchKind::number), numbers);
+    assert_eq!(PatchRecord::KIND_MASK, constant::KIND_MASK);
+    assert_eq!(PatchRecord::BOUNDARY, constant::TAG_BOUNDARY);
+    assert_eq!(PatchRecord::VALENCE_SHIFT, constant::TAG_VALENCE_SHIFT);
 }
 
 const PARTICLE: StructLayout =
