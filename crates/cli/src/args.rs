@@ -44,20 +44,14 @@ pub(crate) struct GlobalArgs {
     pub(crate) verbose: u8,
 }
 
-/// What to do.
+/// What to do. The help of each command is the documentation of its arguments.
 #[derive(Subcommand, Debug)]
 pub(crate) enum Command {
-    /// Draw the surface to a PNG file.
     Render(render::RenderArgs),
-    /// Print points of the surface with derivatives and normals as CSV.
     Sample(sample::SampleArgs),
-    /// Write the triangles that the device draws: PLY, OBJ, GLB, STL.
     Export(export::ExportArgs),
-    /// Prove that the drawn surface has no cracks.
     Check(check::CheckArgs),
-    /// Say what a cage is made of.
     Inspect(inspect::InspectArgs),
-    /// Compare two pictures as a person would see them.
     Compare(compare::CompareArgs),
 }
 

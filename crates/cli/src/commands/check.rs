@@ -12,12 +12,12 @@ use osculate::{CheckReport, Engine, Factors, Scheme, Surface, SurfaceDesc, Tesse
 use osculate_cage::Bounds;
 use serde_json::{Value, json};
 
-/// Prove that the triangles which the device draws close without cracks. Corners of triangles that lie on a common edge or
-/// vertex of the cage's patches must have the same bits in position and normal, whichever patch drew them, and the triangles
-/// must close over them. Prints a line per scheme and level:
+/// Prove that the drawn surface has no cracks.
 ///
-/// triangles, and what must be zero: open (edges without a partner), over_shared (edges with too many), split_normals (corners
-/// that differ), inverted (triangles the wrong way round). Degenerate triangles are counted and allowed. Beside it stands the
+/// Corners of triangles that lie on a common edge or vertex of patches must have the same bits in position and normal,
+/// whichever patch drew them, and the triangles must close over them. Prints a line per scheme and level: triangles, then
+/// what must be zero, which is open (edges without a partner), over_shared (edges with too many), split_normals (corners that
+/// differ) and inverted (triangles the wrong way round). Degenerate triangles are counted and allowed. Beside it stands the
 /// same question asked of positions alone.
 ///
 /// Exit code 1 means that a proof failed.

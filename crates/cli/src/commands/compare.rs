@@ -8,9 +8,11 @@ use osculate_compare::{CompareDesc, CompareError, Comparison, Limits, Picture, c
 use serde_json::json;
 use std::path::PathBuf;
 
-/// Compare two PNG pictures with FLIP, which measures how visible a difference is to someone who flips between them: 0
-/// is equal, 1 the largest difference there is. Differences of alpha count. Exit code 1 means that the pictures
-/// differ more than the limits allow, or in size.
+/// Compare two pictures as a person would see them.
+///
+/// The measure is FLIP: how visible a difference is to someone who flips between the pictures. 0 is equal, 1 the largest
+/// difference there is. Differences of alpha count. Exit code 1 means that the pictures differ more than the limits allow,
+/// or in size.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct CompareArgs {

@@ -15,9 +15,10 @@ use osculate_compare::whole_file;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// Write the triangles that the device draws to a file: .ply (binary), .obj, .glb or .stl (binary). Vertices on common edges
-/// are joined, so that a closed cage gives a closed mesh. PLY, GLB and STL hold 32-bit numbers; OBJ keeps all digits of
-/// cages far from the origin.
+/// Write the triangles that the device draws: PLY, OBJ, GLB, STL.
+///
+/// Vertices on common edges are joined, so that a closed cage gives a closed mesh. PLY and STL (both binary) and GLB hold
+/// 32-bit numbers; OBJ keeps all digits of cages far from the origin, and GLB moves its node there.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct ExportArgs {

@@ -11,9 +11,10 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fmt::{Display, Write};
 
-/// Say what a cage is made of: vertices, faces, valences, boundaries, tags, the patches that each scheme makes of it, and
-/// what may be a mistake. A readable cage exits with 0, whatever its problems; exit code 3 means that it cannot be read or is
-/// refused.
+/// Say what a cage is made of.
+///
+/// Prints vertices, faces, valences, boundaries, tags, the patches that each scheme makes of the cage, and what may be a
+/// mistake. A readable cage exits with 0, whatever its problems; exit code 3 means that it cannot be read or is refused.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct InspectArgs {

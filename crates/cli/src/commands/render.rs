@@ -12,7 +12,9 @@ use osculate_cage::Cage;
 use osculate_compare::Picture;
 use std::path::PathBuf;
 
-/// Draw the surface of a cage to a PNG file. No window is needed.
+/// Draw the surface to a PNG file.
+///
+/// No window is needed. Without options the whole cage is shown, lit, in 1024 x 1024 pixels.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct RenderArgs {

@@ -15,7 +15,9 @@ use osculate_compare::whole_file;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Evaluate points of the surface and print them as CSV: place on the cage, position, derivatives, unit normal.
+/// Print points of the surface with derivatives and normals as CSV.
+///
+/// Columns: face, sub, s, t (the place on the cage), position, derivatives by s and by t, unit normal, ev.
 ///
 /// A quad has sub = -1 and (s,t) = (0,0), (1,0), (1,1), (0,1) at its vertices. Any other face consists of one sub-face per
 /// vertex, sub = 0, 1, ..: (0,0) is the vertex, (1,0) the middle of the edge to the next vertex, (1,1) the centre of the
