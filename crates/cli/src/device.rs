@@ -3,7 +3,7 @@
 use crate::args::GlobalArgs;
 use crate::failure::{Failure, Verdict};
 use crate::stdout;
-use osculate::{Device, DeviceDesc, DeviceError, DeviceInfo, Engine, EngineError, PlanError, devices};
+use osculate::{Device, DeviceDesc, DeviceError, DeviceInfo, Engine, EngineError, GpuError, PlanError, devices};
 
 /// Opens the device that was asked for, hands it to `work`, and fails if validation had anything to say.
 pub(crate) fn with_engine<T>(
@@ -66,6 +66,8 @@ impl From<EngineError> for Failure {
         match error {
             EngineError::Plan(PlanError::NothingToDraw { .. } | PlanError::TooLarge { .. }) => Self::input(error),
             EngineError::Level { .. } => Self::usage(error),
+            EngineError::Gpu(GpuError::Limit { .. } | GpuError::OutOfMemory { .. }) => Self::device(error)
+                .with_hint("ask for less (--size, --samples, --level, a smaller cage) or for another --device"),
             _ => Self::device(error),
         }
     }

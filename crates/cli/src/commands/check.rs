@@ -10,7 +10,7 @@ use crate::stdout;
 use clap::Args;
 use osculate::{CheckReport, Engine, Factors, Scheme, Surface, SurfaceDesc, Tessellation, check};
 use osculate_cage::Bounds;
-use serde_json::{Value, json};
+use serde::Serialize;
 
 /// Prove that the drawn surface has no cracks.
 ///
@@ -154,20 +154,49 @@ impl Job {
         )
     }
 
-    fn object(&self, scheme: Scheme, case: &Case, report: &CheckReport) -> Value {
-        json!({
-            "scheme": scheme.name(),
-            case.key: case.value,
-            "spacing": self.spacing.name(),
-            "triangles": report.triangles,
-            "open": report.open,
-            "over_shared": report.over_shared,
-            "split_positions": report.split_positions,
-            "split_normals": report.split_normals,
-            "inverted": report.inverted,
-            "degenerate": report.degenerate,
-            "weld": { "open": report.weld.open, "over_shared": report.weld.over_shared },
-            "watertight": report.is_watertight(),
-        })
+    fn object(&self, scheme: Scheme, case: &Case, report: &CheckReport) -> Object {
+        let value_of = |key| (case.key == key).then_some(case.value);
+        Object {
+            scheme: scheme.name(),
+            level: value_of("level"),
+            adaptive: value_of("adaptive"),
+            spacing: self.spacing.name(),
+            triangles: report.triangles,
+            open: report.open,
+            over_shared: report.over_shared,
+            split_positions: report.split_positions,
+            split_normals: report.split_normals,
+            inverted: report.inverted,
+            degenerate: report.degenerate,
+            weld: Weld { open: report.weld.open, over_shared: report.weld.over_shared },
+            watertight: report.is_watertight(),
+        }
     }
+}
+
+/// What is printed as JSON. A struct, because the numbers of a `serde_json::Value` are all f64: level 5.3 would not be.
+#[derive(Serialize)]
+struct Object {
+    scheme: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    level: Option<f32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    adaptive: Option<f32>,
+    spacing: &'static str,
+    triangles: u64,
+    open: u64,
+    over_shared: u64,
+    split_positions: u64,
+    split_normals: u64,
+    inverted: u64,
+    degenerate: u64,
+    weld: Weld,
+    watertight: bool,
+}
+
+/// The same question asked of positions alone.
+#[derive(Serialize)]
+struct Weld {
+    open: u64,
+    over_shared: u64,
 }

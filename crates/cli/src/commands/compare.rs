@@ -5,6 +5,7 @@ use crate::options::Output;
 use crate::stdout;
 use clap::Args;
 use osculate_compare::{CompareDesc, CompareError, Comparison, Limits, Picture, compare, load};
+use serde::Serialize;
 use serde_json::json;
 use std::path::PathBuf;
 
@@ -100,16 +101,27 @@ fn print_sizes(job: &Job, sizes: &CompareError) -> Result<Verdict, Failure> {
     Ok(Verdict::Fail)
 }
 
+/// What is printed as JSON. A struct, because the numbers of a `serde_json::Value` are all f64, which would print 0.002 with
+/// the digits of its rounding.
+#[derive(Serialize)]
+struct Figures {
+    same: bool,
+    mean: f32,
+    p99: f32,
+    max: f32,
+    alpha: u8,
+    mean_limit: f32,
+    p99_limit: f32,
+}
+
 fn print_figures(job: &Job, comparison: &Comparison, verdict: Verdict) -> Result<(), Failure> {
     let Comparison { mean, p99, max, alpha, .. } = *comparison;
+    let Limits { mean: mean_limit, p99: p99_limit } = job.limits;
     let same = verdict == Verdict::Pass;
     if job.json {
-        let limits = json!({ "mean": job.limits.mean, "p99": job.limits.p99 });
-        let figures = json!({ "same": same, "mean": mean, "p99": p99, "max": max, "alpha": alpha, "limits": limits });
-        return stdout::print_json(&figures);
+        return stdout::print_json(&Figures { same, mean, p99, max, alpha, mean_limit, p99_limit });
     }
     let word = if same { "same" } else { "different" };
-    let Limits { mean: mean_limit, p99: p99_limit } = job.limits;
     stdout::print_line(format_args!(
         "{word}: FLIP mean {mean:.6} (limit {mean_limit}), p99 {p99:.6} (limit {p99_limit}), max {max:.6}, alpha {alpha}/255"
     ))

@@ -25,10 +25,10 @@ fn a_line_per_scheme_and_level() {
 #[test]
 fn an_object_per_scheme_and_level() {
     let arguments =
-        ["check", "cage.obj", "--json", "--schemes", "all,gregory2", "--levels", "2.5,4", "--spacing", "odd"];
+        ["check", "cage.obj", "--json", "--schemes", "all,gregory2", "--levels", "2.5,5.3", "--spacing", "odd"];
     let ran = osculate(folder().path(), &arguments).exits(0);
     let reports: Vec<Value> = ran.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
-    assert_eq!(reports.iter().map(|report| report["level"].as_f64().unwrap()).collect::<Vec<_>>(), [2.5, 4.0]);
+    assert_eq!(reports.iter().map(|report| report["level"].as_f64().unwrap()).collect::<Vec<_>>(), [2.5, 5.3]);
     for report in &reports {
         assert!(report["triangles"].as_u64().unwrap() > 0);
         assert_eq!(report["scheme"], "gregory2");
