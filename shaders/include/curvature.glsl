@@ -9,7 +9,7 @@ float shade_dot(vec3 a, vec3 b) {
 }
 
 // (mean, Gaussian) curvature at (u,v); zero where the patch has no tangent plane. For shading alone: no bits are promised.
-vec2 bicubic_curvature(vec3 b[16], vec2 uv) {
+vec2 shade_curvature_at(vec3 b[16], vec2 uv) {
     PatchPoint p = bicubic_point(b, uv);
     vec4 bu = bernstein3(uv.x);
     vec4 bv = bernstein3(uv.y);

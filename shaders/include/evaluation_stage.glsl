@@ -3,7 +3,7 @@
 #define EVALUATION_STAGE_GLSL
 #include "frame.glsl"
 #include "records.glsl"
-#include "curvature.glsl"
+#include "measure.glsl"
 
 // Vulkan looks at the domain with v pointing down, so what it calls clockwise is counter-clockwise in (u,v).
 layout(quads, SPACING, cw) in;
@@ -18,14 +18,15 @@ layout(location = 3, xfb_buffer = 0, xfb_stride = 36, xfb_offset = 32) out flat 
 #else
 layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
-layout(location = 2) out vec2 out_curvature;
+layout(location = 2) out vec2 out_measure;
 layout(location = 3) out flat uint out_patch;
 #endif
 
 // Writes the vertex at (u,v) of the patch whose bicubic form there is `b`.
 void write_vertex(vec3 b[16]) {
     vec2 uv = gl_TessCoord.xy;
-    SurfacePoint point = surface_point(patch_id, uv, bicubic_point(b, uv));
+    PatchPoint inner = bicubic_point(b, uv);
+    SurfacePoint point = surface_point(patch_id, uv, inner);
     gl_Position = clip_position(point.position);
     out_position = point.position;
     out_normal = point.normal;
@@ -33,7 +34,7 @@ void write_vertex(vec3 b[16]) {
 #ifdef CAPTURE
     out_uv = uv;
 #else
-    out_curvature = frame.shade == SHADE_CURVATURE ? bicubic_curvature(b, uv) : vec2(0.0);
+    out_measure = shade_measure(b, uv, inner, vec2(gl_TessLevelInner[0], gl_TessLevelInner[1]));
 #endif
 }
 

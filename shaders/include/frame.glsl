@@ -22,8 +22,8 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
     float curvature_length;
     // Smallest distance from the eye that adaptive factors tell apart.
     float near;
-    uint padding0;
-    uint padding1;
+    // Width and height of the picture in pixels.
+    vec2 viewport;
     // Line colour of wireframe and cage overlay.
     vec4 line_color;
 } frame;

@@ -1,19 +1,41 @@
-// Light for a clay-like surface: a key, a fill and a rim light fixed to the camera, over a sky and ground term. Linear RGB.
+// Lights for a porcelain-like surface, fixed to the camera. Vectors in view space: n the normal on the side that is seen, v the direction to the eye.
+// Linear RGB.
 #ifndef LIGHTING_GLSL
 #define LIGHTING_GLSL
 
-// All vectors in view space: n the normal towards the eye, v the direction to the eye.
+// Diffuse light that reaches a little around the edge of shadow, as in a material that scatters: 1 towards the light, 0 where the cosine is -wrap.
+float shade_wrapped(float cosine, float wrap) {
+    float x = max((cosine + wrap) / (1.0 + wrap), 0.0);
+    return x * x * (3.0 - wrap - (2.0 - wrap) * x);
+}
+
+// Highlight of a glossy coat of the given sharpness (Blinn 1977), with Schlick's rise towards grazing angles.
+float shade_gloss(vec3 n, vec3 l, vec3 v, float sharpness) {
+    vec3 h = normalize(l + v);
+    float fresnel = 0.04 + 0.96 * pow(1.0 - clamp(dot(h, v), 0.0, 1.0), 5.0);
+    return fresnel * (sharpness + 8.0) / 25.0 * pow(max(dot(n, h), 0.0), sharpness) * max(dot(n, l), 0.0);
+}
+
+// Three lights (a warm key from the upper left, a cool fill, a light from behind for the outline) over a sky and a ground.
 vec3 shade_lit(vec3 albedo, vec3 n, vec3 v) {
-    const vec3 key = normalize(vec3(-0.45, 0.75, 0.60));
-    const vec3 fill = normalize(vec3(0.85, 0.10, 0.45));
-    const vec3 rim = normalize(vec3(0.30, 0.50, -0.80));
-    vec3 sky = mix(vec3(0.10, 0.09, 0.085), vec3(0.22, 0.25, 0.30), 0.5 + 0.5 * n.y);
-    vec3 light = sky + vec3(1.00, 0.95, 0.86) * 0.80 * max(dot(n, key), 0.0) + vec3(0.70, 0.80, 1.00) * 0.18 * max(dot(n, fill), 0.0);
-    vec3 half_way = normalize(key + v);
-    float gloss = 0.10 * pow(max(dot(n, half_way), 0.0), 42.0);
-    float edge = pow(1.0 - max(dot(n, v), 0.0), 3.0);
-    float back = 0.35 * edge * max(dot(n, rim) + 0.4, 0.0);
-    return albedo * light + vec3(gloss) + vec3(0.85, 0.92, 1.00) * back * 0.5;
+    const vec3 key = normalize(vec3(-0.55, 0.70, 0.50));
+    const vec3 fill = normalize(vec3(0.90, 0.05, 0.45));
+    const vec3 behind = normalize(vec3(0.55, 0.45, -0.70));
+    vec3 around = mix(vec3(0.120, 0.095, 0.080), vec3(0.215, 0.245, 0.300), smoothstep(-1.0, 1.0, n.y));
+    vec3 diffuse = around
+        + vec3(1.02, 0.95, 0.85) * 0.92 * shade_wrapped(dot(n, key), 0.25)
+        + vec3(0.62, 0.76, 1.00) * 0.13 * shade_wrapped(dot(n, fill), 0.30);
+    float grazing = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 4.0);
+    vec3 outline = vec3(0.80, 0.90, 1.00) * 0.42 * grazing * smoothstep(-0.35, 0.45, dot(n, behind));
+    float gloss = shade_gloss(n, key, v, 60.0) + 0.35 * shade_gloss(n, fill, v, 30.0);
+    return albedo * diffuse + outline + vec3(gloss);
+}
+
+// A soft headlight: colours that mean something are shown as they are where the surface faces the eye.
+vec3 shade_flat(vec3 albedo, vec3 n, vec3 v) {
+    float facing = clamp(dot(n, v), 0.0, 1.0);
+    float side = 0.08 * n.y * (1.0 - facing);
+    return albedo * (0.30 + 0.70 * facing + side);
 }
 
 #endif

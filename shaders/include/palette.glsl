@@ -1,44 +1,55 @@
-// Colours of patches by kind and valence, in linear RGB; the legend stands in docs/shading.md.
+// Colours that mean something, in linear RGB, written as the sRGB values that the legend in docs/shading.md shows.
 #ifndef PALETTE_GLSL
 #define PALETTE_GLSL
 #include "constants.glsl"
 
-vec3 shade_srgb(float r, float g, float b) {
-    return pow(vec3(r, g, b), vec3(2.2));
+// The linear colour of an sRGB colour, channels in 0..1 (IEC 61966-2-1).
+vec3 shade_decode(vec3 c) {
+    return mix(c / 12.92, pow((c + 0.055) / 1.055, vec3(2.4)), greaterThan(c, vec3(0.04045)));
 }
 
-// Hue of a valence: 3 to 8 have their own, higher ones fade from violet to black.
-vec3 shade_valence_color(uint valence) {
-    switch (valence) {
-    case 2u: return shade_srgb(0.35, 0.85, 0.80);
-    case 3u: return shade_srgb(0.25, 0.52, 0.90);
-    case 4u: return shade_srgb(0.80, 0.80, 0.78);
-    case 5u: return shade_srgb(0.98, 0.72, 0.20);
-    case 6u: return shade_srgb(0.90, 0.36, 0.20);
-    case 7u: return shade_srgb(0.80, 0.20, 0.45);
-    case 8u: return shade_srgb(0.60, 0.25, 0.70);
-    default: return shade_srgb(0.45, 0.22, 0.65) * max(0.15, 1.0 - float(valence - 8u) / 32.0);
+// The linear colour of an sRGB colour 0xRRGGBB.
+vec3 shade_srgb(uint rgb) {
+    return shade_decode(vec3(uvec3(rgb >> 16u, rgb >> 8u, rgb) & 255u) / 255.0);
+}
+
+// Colour of a number of edges: 4 is pale, 2 to 8 have hues of their own, more fade from violet to near black at 40.
+vec3 shade_edges_color(uint edges) {
+    switch (edges) {
+    case 2u: return shade_srgb(0x3dbfa4);
+    case 3u: return shade_srgb(0x3b7fd6);
+    case 4u: return shade_srgb(0xe4e1da);
+    case 5u: return shade_srgb(0xf6bc41);
+    case 6u: return shade_srgb(0xe8702a);
+    case 7u: return shade_srgb(0xcb2f46);
+    case 8u: return shade_srgb(0x9c3aa6);
+    default: return mix(shade_srgb(0x7a4bc2), shade_srgb(0x1e1738), clamp(float(edges - 9u) / 31.0, 0.0, 1.0));
     }
 }
 
-// Regular white, boundary red, one-face corner green, extraordinary yellow to orange by valence.
+// By the edges at the patch's corner; paler where that is regular at a boundary.
+vec3 shade_valence_color(uint tag) {
+    vec3 color = shade_edges_color(tag >> TAG_VALENCE_SHIFT);
+    bool regular = (tag & KIND_MASK) == KIND_REGULAR;
+    return regular ? mix(shade_edges_color(4u), color, 0.30) : color;
+}
+
+// Regular patches white to blue, extraordinary ones yellow to dark red by valence, those at a boundary green to purple.
 vec3 shade_patch_color(uint tag) {
     uint valence = tag >> TAG_VALENCE_SHIFT;
     bool boundary = (tag & TAG_BOUNDARY) != 0u;
     if ((tag & KIND_MASK) == KIND_REGULAR) {
-        if (!boundary) {
-            return shade_srgb(0.86, 0.86, 0.84);
-        }
-        return valence == 2u ? shade_srgb(0.35, 0.75, 0.40) : shade_srgb(0.85, 0.33, 0.30);
+        uint corner = valence == 2u ? 0x3f74b5u : 0x8fb8dau;
+        return shade_srgb(boundary ? corner : 0xe4e1dau);
     }
+    float more = clamp((float(valence) - 5.0) / 8.0, 0.0, 1.0);
     if (boundary) {
-        return shade_srgb(0.62, 0.20, 0.45);
+        return valence < 4u ? shade_srgb(0x56b870) : mix(shade_srgb(0xc98bd8), shade_srgb(0x5a2a82), more);
     }
     if (valence < 4u) {
-        return shade_srgb(0.98, 0.90, 0.30);
+        return shade_srgb(valence == 2u ? 0xb9d63a : 0xf9e36a);
     }
-    float heat = clamp((float(valence) - 5.0) / 8.0, 0.0, 1.0);
-    return mix(shade_srgb(0.99, 0.75, 0.22), shade_srgb(0.82, 0.30, 0.08), heat);
+    return mix(shade_srgb(0xf6b53c), shade_srgb(0x9e1f1f), sqrt(more));
 }
 
 #endif

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Lines of the wireframe and of the cage overlay.
+// Lines of the cage overlay.
 #include "frame.glsl"
 
 layout(location = 0) out vec4 color;

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Colours the surface by Frame.shade. The normal is turned towards the eye, so open surfaces look the same from both sides.
+// Colours the surface by Frame.shade.
 #include "frame.glsl"
 #include "records.glsl"
 #include "palette.glsl"
@@ -8,53 +8,84 @@
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-layout(location = 2) in vec2 curvature;
+// By shade: curvature, or (u,v) in the patch (shade_measure).
+layout(location = 2) in vec2 measure;
 layout(location = 3) in flat uint patch_id;
 
 layout(location = 0) out vec4 color;
 
-const vec3 CLAY = vec3(0.62, 0.58, 0.54);
+// Outside and inside of the surface: only open surfaces show the inside.
+const vec3 PORCELAIN = vec3(0.640, 0.605, 0.560);
+const vec3 INSIDE = vec3(0.330, 0.420, 0.500);
+
+vec3 shade_view(vec3 a) {
+    return mat3(frame.view_from_cage) * a;
+}
+
+// The unit normal on the side of the triangle that is seen. Interpolated normals of a coarse outline may look away from the eye: those are bent until they
+// graze it. Where there is no tangent plane the surface faces the eye.
+vec3 shade_normal(vec3 v) {
+    vec3 n = shade_view(gl_FrontFacing ? normal : -normal);
+    n -= min(dot(n, v), 0.0) * v;
+    return dot(n, n) > 0.0 ? normalize(n) : v;
+}
 
 // The shading of the peer's benchmark picture: one two-sided headlight, written without colour encoding.
-vec3 shade_peer(vec3 n) {
+vec3 shade_peer() {
+    vec3 n = normalize(shade_view(normal));
     return vec3(0.80, 0.75, 0.70) * (0.15 + 0.85 * abs(dot(n, normalize(vec3(0.3, 0.4, 1.0)))));
 }
 
-// Stripes of a striped environment seen in the surface: breaks in the tangent plane break stripes, breaks in curvature kink them.
-vec3 shade_zebra(vec3 n, vec3 v) {
-    vec3 r = reflect(-v, n);
-    float phase = 9.0 * atan(r.y, length(r.xz)) + 2.0 * atan(r.x, r.z + 1.5);
-    float width = max(fwidth(phase), 1e-4);
-    float stripe = clamp(0.5 + sin(phase * 2.0) / (2.0 * width), 0.0, 1.0);
-    return mix(vec3(0.03), vec3(0.88), stripe) * (0.65 + 0.35 * max(dot(n, v), 0.0));
+// Thin dark lines where patches meet, a pixel wide on either side; none where patches are a few pixels large.
+vec3 shade_outlined(vec3 rgb, vec2 uv) {
+    vec2 pixel = fwidth(uv);
+    vec2 line = 1.0 - smoothstep(0.35 * pixel, 1.35 * pixel, min(uv, 1.0 - uv));
+    vec2 shown = line * (1.0 - smoothstep(0.07, 0.22, pixel));
+    return rgb * (1.0 - 0.55 * max(shown.x, shown.y));
 }
 
-// Mean curvature: blue hollow, white flat, red bulging.
-vec3 shade_curvature(float mean) {
-    float x = mean * frame.curvature_length;
-    x = x / sqrt(1.0 + x * x);
-    vec3 hot = mix(vec3(0.82), vec3(0.70, 0.05, 0.04), max(x, 0.0));
-    return mix(hot, vec3(0.03, 0.12, 0.60), max(-x, 0.0));
+// Share of white in a stretch of `width` around `x` of a square wave with period 1 that is white in its second half.
+float shade_square_wave(float x, float width) {
+    vec2 ends = vec2(x - 0.5 * width, x + 0.5 * width);
+    vec2 integral = 0.5 * floor(ends) + max(fract(ends) - 0.5, 0.0);
+    return (integral.y - integral.x) / width;
+}
+
+// A room striped by height and a little by side, mirrored in the surface: breaks of the tangent plane break stripes, breaks of curvature kink them.
+vec3 shade_zebra(vec3 n, vec3 v) {
+    vec3 r = reflect(-v, n);
+    float phase = 2.6 * r.y + 0.9 * r.x;
+    float stripe = shade_square_wave(phase, max(fwidth(phase), 1e-4));
+    vec3 rgb = mix(vec3(0.012, 0.014, 0.018), vec3(0.86, 0.86, 0.84), stripe);
+    float grazing = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 4.0);
+    return rgb * (0.55 + 0.45 * dot(n, v)) + 0.06 * grazing;
+}
+
+// Mean curvature: blue hollow, white flat, red bulging as seen from outside.
+vec3 shade_curvature(float bulge) {
+    float x = bulge * frame.curvature_length;
+    x = x / (1.0 + abs(x));
+    vec3 flat_color = shade_srgb(0xf4f2ee);
+    vec3 end = x > 0.0 ? shade_srgb(0xb2182b) : shade_srgb(0x1f5fa8);
+    vec3 middle = x > 0.0 ? shade_srgb(0xef8a62) : shade_srgb(0x67a9cf);
+    float t = abs(x);
+    return t < 0.5 ? mix(flat_color, middle, 2.0 * t) : mix(middle, end, 2.0 * t - 1.0);
 }
 
 void main() {
-    vec3 to_eye = frame.eye.xyz - position;
-    bool away = dot(normal, to_eye) < 0.0;
-    vec3 object_normal = normalize(away ? -normal : normal);
-    vec3 n = mat3(frame.view_from_cage) * object_normal;
-    n = normalize(n);
-    vec3 v = normalize(mat3(frame.view_from_cage) * to_eye);
+    vec3 v = normalize(shade_view(frame.eye.xyz - position));
+    vec3 n = shade_normal(v);
     uint tag = patches[patch_id].tag;
     vec3 rgb;
     switch (frame.shade) {
-    case SHADE_NORMALS: rgb = pow(0.5 + 0.5 * normalize(normal), vec3(2.2)); break;
-    case SHADE_PATCHES: rgb = shade_lit(shade_patch_color(tag), n, v); break;
-    case SHADE_VALENCE: rgb = shade_lit(shade_valence_color(tag >> TAG_VALENCE_SHIFT), n, v); break;
+    case SHADE_NORMALS: rgb = shade_decode(0.5 + 0.5 * normalize(normal)); break;
+    case SHADE_PATCHES: rgb = shade_outlined(shade_flat(shade_patch_color(tag), n, v), measure); break;
+    case SHADE_VALENCE: rgb = shade_outlined(shade_flat(shade_valence_color(tag), n, v), measure); break;
     case SHADE_ZEBRA: rgb = shade_zebra(n, v); break;
-    // Bending away from an outward normal is positive, as on a sphere.
-    case SHADE_CURVATURE: rgb = shade_curvature(-curvature.x) * (0.45 + 0.55 * max(dot(n, v), 0.0)); break;
-    case SHADE_PEER: rgb = shade_peer(n); break;
-    default: rgb = shade_lit(CLAY, n, v); break;
+    // The derivatives bend towards the normal where the surface is hollow, so a sphere has negative mean curvature.
+    case SHADE_CURVATURE: rgb = shade_flat(shade_curvature(-measure.x), n, v); break;
+    case SHADE_PEER: rgb = shade_peer(); break;
+    default: rgb = shade_lit(gl_FrontFacing ? PORCELAIN : INSIDE, n, v); break;
     }
     color = vec4(rgb, 1.0);
 }

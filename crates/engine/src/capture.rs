@@ -45,8 +45,14 @@ impl Surface {
         let segments = tessellation.max_segments()?;
         let device = self.engine().device();
         self.require_capture()?;
-        let frame =
-            FrameDesc { space: self.space(), tessellation, view: None, shade: Shade::Lit, line_color: [0.0; 4] };
+        let frame = FrameDesc {
+            radius: self.radius(),
+            space: self.space(),
+            tessellation,
+            view: None,
+            shade: Shade::Lit,
+            line_color: [0.0; 4],
+        };
         let bindings = self.buffers().patches.clone().with(binding::FRAME, &frame.upload(device)?);
         let patches = u64::from(self.plan().patches.len() as u32);
         let size = CHUNK_BYTES.min(patches * patch_bytes(segments)).max(patch_bytes(segments));

@@ -2,7 +2,7 @@
 
 use bytemuck::bytes_of;
 use osculate_gpu::{
-    Bindings, Compare, DepthBias, DepthState, Draw, Format, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode,
+    Bindings, Blend, Compare, DepthBias, DepthState, Draw, Format, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode,
     Tessellation as Stages, Topology,
 };
 use osculate_shaders::{constant, layout::PatchPush};
@@ -13,8 +13,8 @@ use crate::{Engine, EngineError, Spacing, Surface, Tessellation};
 /// What becomes of tessellated patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Output {
-    /// Filled triangles; with `behind`, pushed back a little so that lines lie upon them.
-    Fill { target: Target, behind: bool },
+    /// Filled triangles.
+    Fill(Target),
     /// The edges of the triangles.
     Lines(Target),
     /// Captured by transform feedback.
@@ -35,8 +35,8 @@ pub(crate) const DEPTH_FORMAT: Format = Format::Depth32Float;
 pub(crate) enum PipelineKey {
     /// Patches of a kind.
     Patches { kind: PatchKind, spacing: Spacing, output: Output },
-    /// Lines of the cage overlay.
-    Cage(Target),
+    /// Lines of the cage overlay: those in sight, or all, behind the surface too.
+    Cage { target: Target, hidden: bool },
 }
 
 /// Stem of the stages of a patch kind.
@@ -61,7 +61,7 @@ impl PipelineKey {
     pub(crate) fn make(self, engine: &Engine) -> Result<GraphicsPipeline, EngineError> {
         match self {
             Self::Patches { kind, spacing, output } => make_patches(engine, kind, spacing, output),
-            Self::Cage(target) => make_cage(engine, target),
+            Self::Cage { target, hidden } => make_cage(engine, target, hidden),
         }
     }
 }
@@ -79,8 +79,8 @@ fn make_patches(
     let control = engine.shader(&format!("patch/{stem}.tesc"))?;
     let evaluation = engine.shader(&format!("patch/{stem}.tese#{}{capture}", spacing.variant()))?;
     let fragment = match output {
-        Output::Fill { .. } => Some(engine.shader("shade/surface.frag")?),
-        Output::Lines(_) => Some(engine.shader("shade/line.frag")?),
+        Output::Fill(_) => Some(engine.shader("shade/surface.frag")?),
+        Output::Lines(_) => Some(engine.shader("shade/wire.frag")?),
         Output::Capture => None,
     };
     let name = match kind {
@@ -108,24 +108,30 @@ fn with_output<'a>(desc: GraphicsPipelineDesc<'a>, output: Output) -> GraphicsPi
         ..desc
     };
     match output {
-        Output::Fill { target, behind } => {
-            let bias = behind.then_some(DepthBias { constant: 4.0, slope: 1.5 });
-            drawn(target, PolygonMode::Fill, DepthState { bias, ..DepthState::default() })
-        }
+        Output::Fill(target) => drawn(target, PolygonMode::Fill, DepthState::default()),
         Output::Lines(target) => {
-            drawn(target, PolygonMode::Line, DepthState { compare: Compare::LessOrEqual, ..DepthState::default() })
+            // A line covers pixels whose centres lie up to half a pixel beside the edge, where the triangle may be that much nearer.
+            let bias = Some(DepthBias { constant: -16.0, slope: -1.0 });
+            let depth = DepthState { bias, ..upon_fill() };
+            GraphicsPipelineDesc { blend: Blend::Alpha, ..drawn(target, PolygonMode::Line, depth) }
         }
         Output::Capture => GraphicsPipelineDesc { rasterizer_discard: true, ..desc },
     }
 }
 
-fn make_cage(engine: &Engine, target: Target) -> Result<GraphicsPipeline, EngineError> {
+/// Lines blend, so the two triangles of an edge must both pass or both fail: lines leave the depth as it is.
+fn upon_fill() -> DepthState {
+    DepthState { compare: Compare::LessOrEqual, write: false, bias: None }
+}
+
+fn make_cage(engine: &Engine, target: Target, hidden: bool) -> Result<GraphicsPipeline, EngineError> {
     let vertex = engine.shader("shade/cage.vert")?;
     let fragment = engine.shader("shade/line.frag")?;
     let desc = GraphicsPipelineDesc {
         fragment: Some(&fragment),
         topology: Topology::Lines,
-        depth: Some(DepthState { compare: Compare::LessOrEqual, ..DepthState::default() }),
+        blend: Blend::Alpha,
+        depth: Some(if hidden { DepthState { compare: Compare::Always, ..upon_fill() } } else { upon_fill() }),
         color_format: Some(target.color),
         depth_format: Some(DEPTH_FORMAT),
         samples: target.samples,

@@ -7,15 +7,17 @@ use osculate_shaders::layout::Frame;
 
 use crate::{CageSpace, Camera, EngineError, Factors, Shade, Tessellation};
 
-/// Length of the box's half diagonal over which bending by one radian saturates the curvature colours.
-const CURVATURE_LENGTH: f32 = 0.12;
+/// Radius of curvature, as a part of the cage's half diagonal, at which the curvature colours are half way to their ends.
+const CURVATURE_LENGTH: f32 = 0.2;
 
 /// What a frame shows, before it becomes a uniform block.
 pub(crate) struct FrameDesc<'a> {
     pub(crate) space: &'a CageSpace,
+    /// Half diagonal of the cage's box in cage space.
+    pub(crate) radius: f32,
     pub(crate) tessellation: &'a Tessellation,
-    /// Camera and aspect ratio of the picture; none when nothing is drawn.
-    pub(crate) view: Option<(&'a Camera, f64)>,
+    /// Camera and size of the picture in pixels; none when nothing is drawn.
+    pub(crate) view: Option<(&'a Camera, [u32; 2])>,
     pub(crate) shade: Shade,
     pub(crate) line_color: [f32; 4],
 }
@@ -28,7 +30,10 @@ impl FrameDesc<'_> {
     /// The block as the shaders see it.
     pub(crate) fn block(&self) -> Frame {
         let (clip, view) = match self.view {
-            Some((camera, aspect)) => (camera.clip(self.space, aspect), camera.view(self.space)),
+            Some((camera, [width, height])) => {
+                let aspect = f64::from(width) / f64::from(height);
+                (camera.clip(self.space, aspect), camera.view(self.space))
+            }
             None => (DMat4::IDENTITY, DMat4::IDENTITY),
         };
         let mut frame = Frame {
@@ -39,10 +44,9 @@ impl FrameDesc<'_> {
             segments_per_length: 0.0,
             factor_mode: constant::FACTORS_UNIFORM,
             shade: self.shade.constant(),
-            curvature_length: CURVATURE_LENGTH,
+            curvature_length: CURVATURE_LENGTH * self.radius,
             near: 0.0,
-            padding0: 0,
-            padding1: 0,
+            viewport: self.view.map_or([1.0; 2], |(_, size)| size.map(|pixels| pixels as f32)),
             line_color: self.line_color,
         };
         match &self.tessellation.factors {

@@ -15,6 +15,7 @@
 //! A [`Surface`] holds a cage's tables and points on the device; [`render()`], [`Surface::capture`], [`Surface::sample`] and [`check()`] draw it, hand out the
 //! triangles that the tessellator made, evaluate single points, and prove that no shared edge is open.
 
+mod alpha;
 mod buffers;
 mod camera;
 mod capture;

@@ -7,6 +7,7 @@ use osculate_gpu::{
 };
 use osculate_shaders::{binding, constant};
 
+use crate::alpha::{alpha_multiplied_in, divide_alpha_out};
 use crate::draw::{DEPTH_FORMAT, Output, PipelineKey, Target, patches_per_draw, runs};
 use crate::frame::FrameDesc;
 use crate::{Camera, Engine, EngineError, Surface, Tessellation};
@@ -90,14 +91,18 @@ pub struct RenderDesc {
     pub cage: bool,
     /// Samples per pixel.
     pub samples: u32,
-    /// Background, linear RGBA.
+    /// Background, linear RGBA, alpha not multiplied in.
     pub background: [f32; 4],
 }
 
-/// Dark neutral grey.
-const BACKGROUND: [f32; 4] = [0.028, 0.030, 0.034, 1.0];
-const WIRE: [f32; 4] = [0.010, 0.012, 0.016, 1.0];
-const CAGE: [f32; 4] = [0.95, 0.45, 0.10, 1.0];
+/// Dark slate, sRGB (49, 54, 62).
+const BACKGROUND: [f32; 4] = [0.0307, 0.0369, 0.0482, 1.0];
+/// Edges of triangles.
+const WIRE: [f32; 4] = [0.012, 0.014, 0.020, 0.85];
+/// Edges of the cage, orange.
+const CAGE: [f32; 4] = [0.90, 0.27, 0.035, 1.0];
+/// How much of them shines through the surface.
+const CAGE_BEHIND: f32 = 0.28;
 
 impl RenderDesc {
     /// The whole cage from its upper right front, lit, at four samples a pixel.
@@ -114,7 +119,8 @@ impl RenderDesc {
     }
 }
 
-/// A picture: rows from the top, four bytes a pixel (red, green, blue, alpha), sRGB but for [`Shade::Peer`].
+/// A picture: rows from the top, four bytes a pixel (red, green, blue, alpha), sRGB but for [`Shade::Peer`]. Alpha is not multiplied in: a pixel half covered
+/// by the surface before a transparent background has the surface's colour.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Picture {
     /// Width and height in pixels.
@@ -126,7 +132,7 @@ pub struct Picture {
 /// Draws surfaces. All must be of one engine.
 ///
 /// # Errors
-/// If the level is out of range, the picture or the number of samples exceeds what the device can do, or the device fails.
+/// If the level is out of range, the picture has no pixels, it or the number of samples exceeds what the device can do, or the device fails.
 pub fn render(engine: &Engine, surfaces: &[&Surface], desc: &RenderDesc) -> Result<Picture, EngineError> {
     let targets = Targets::new(engine, desc)?;
     let mut draws = Vec::new();
@@ -141,7 +147,11 @@ pub fn render(engine: &Engine, surfaces: &[&Surface], desc: &RenderDesc) -> Resu
     let pixels = engine.device().buffer(&BufferDesc { name: "picture", size, usage, memory })?;
     recording.copy_image_to_buffer(targets.result(), &pixels);
     engine.device().run(&recording)?;
-    Ok(Picture { size: desc.size, rgba: pixels.read(0..size)? })
+    let mut rgba = pixels.read(0..size)?;
+    if desc.background[3] < 1.0 {
+        divide_alpha_out(&mut rgba, targets.target.color);
+    }
+    Ok(Picture { size: desc.size, rgba })
 }
 
 fn add_surface(surface: &Surface, desc: &RenderDesc, target: Target, draws: &mut Vec<Draw>) -> Result<(), EngineError> {
@@ -154,34 +164,47 @@ fn add_surface(surface: &Surface, desc: &RenderDesc, target: Target, draws: &mut
             hint: "choose another shade".to_owned(),
         });
     }
-    let aspect = f64::from(desc.size[0]) / f64::from(desc.size[1]);
     let frame = |line_color| FrameDesc {
         space: surface.space(),
+        radius: surface.radius(),
         tessellation: &desc.tessellation,
-        view: Some((&desc.camera, aspect)),
+        view: Some((&desc.camera, desc.size)),
         shade: desc.shade,
         line_color,
     };
     let bindings = surface.buffers().patches.clone().with(binding::FRAME, &frame(WIRE).upload(device)?);
     let longest = patches_per_draw(surface.engine(), desc.tessellation.max_segments()?);
-    let fill = Output::Fill { target, behind: wire || desc.cage };
-    let outputs = [Some(fill), wire.then_some(Output::Lines(target))];
+    let outputs = [Some(Output::Fill(target)), wire.then_some(Output::Lines(target))];
     for output in outputs.into_iter().flatten() {
         for run in runs(&surface.plan().lists, longest) {
             draws.push(surface.draw(run, &bindings, &desc.tessellation, output)?);
         }
     }
     if desc.cage {
-        let frame = frame(CAGE).upload(device)?;
-        draws.push(Draw {
-            pipeline: surface.engine().pipeline(PipelineKey::Cage(target))?,
-            bindings: surface.buffers().cage_edges.clone().with(binding::FRAME, &frame),
-            push: Vec::new(),
-            vertices: (0..2 * surface.cage_edge_count()).into(),
-            instances: 0..1,
-        });
+        for (hidden, opacity) in [(true, CAGE_BEHIND), (false, 1.0)] {
+            let [r, g, b, _] = CAGE;
+            let frame = frame([r, g, b, opacity]).upload(device)?;
+            draws.push(Draw {
+                pipeline: surface.engine().pipeline(PipelineKey::Cage { target, hidden })?,
+                bindings: surface.buffers().cage_edges.clone().with(binding::FRAME, &frame),
+                push: Vec::new(),
+                vertices: (0..2 * surface.cage_edge_count()).into(),
+                instances: 0..1,
+            });
+        }
     }
     Ok(())
+}
+
+fn check_size(engine: &Engine, [width, height]: [u32; 2]) -> Result<(), EngineError> {
+    if width > 0 && height > 0 {
+        return Ok(());
+    }
+    Err(EngineError::Unsupported {
+        device: engine.device().info().name.clone(),
+        what: format!("draw a picture of {width}x{height} pixels"),
+        hint: "give it at least one pixel each way".to_owned(),
+    })
 }
 
 /// Images that a picture is drawn to.
@@ -196,6 +219,7 @@ struct Targets {
 impl Targets {
     fn new(engine: &Engine, desc: &RenderDesc) -> Result<Self, EngineError> {
         let limits = &engine.device().info().limits;
+        check_size(engine, desc.size)?;
         if !limits.sample_counts.contains(&desc.samples) {
             return Err(EngineError::Unsupported {
                 device: engine.device().info().name.clone(),
@@ -226,7 +250,7 @@ impl Targets {
             name: "picture".to_owned(),
             color: Some(ColorTarget {
                 image: self.color.clone(),
-                clear: Some(desc.background),
+                clear: Some(alpha_multiplied_in(desc.background)),
                 resolve: self.resolved.clone(),
             }),
             depth: Some(DepthTarget { image: self.depth.clone(), clear: Some(1.0) }),

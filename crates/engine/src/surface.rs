@@ -25,6 +25,8 @@ pub struct Surface {
     engine: Engine,
     plan: SurfacePlan,
     space: CageSpace,
+    /// Half diagonal of the cage's box in cage space.
+    radius: f32,
     scheme: Scheme,
     buffers: SurfaceBuffers,
     cage_edge_count: u32,
@@ -44,6 +46,7 @@ impl Surface {
             buffers: SurfaceBuffers::new(engine.device(), &plan, &edges)?,
             engine: engine.clone(),
             plan,
+            radius: (cage.bounds().half_diagonal() * CageSpace::new(cage.bounds()).scale) as f32,
             space: CageSpace::new(cage.bounds()),
             scheme: desc.scheme,
             cage_edge_count: edges.len() as u32,
@@ -199,6 +202,10 @@ impl Surface {
 
     pub(crate) fn buffers(&self) -> &SurfaceBuffers {
         &self.buffers
+    }
+
+    pub(crate) fn radius(&self) -> f32 {
+        self.radius
     }
 
     pub(crate) fn cage_edge_count(&self) -> u32 {

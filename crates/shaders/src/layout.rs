@@ -84,10 +84,8 @@ shared_structs! {
         pub curvature_length: f32,
         /// Smallest distance from the eye that adaptive factors tell apart.
         pub near: f32,
-        /// Zero.
-        pub padding0: u32,
-        /// Zero.
-        pub padding1: u32,
+        /// Width and height of the picture in pixels.
+        pub viewport: [f32; 2],
         /// Line colour of wireframe and cage overlay, linear RGBA.
         pub line_color: [f32; 4],
     }

@@ -1,0 +1,32 @@
+// What the evaluation stage measures for the shade of the picture. For shading alone: no bits are promised.
+#ifndef MEASURE_GLSL
+#define MEASURE_GLSL
+#include "frame.glsl"
+#include "curvature.glsl"
+
+// A step along `direction` from the point at `clip`, in pixels of the picture.
+vec2 shade_pixels(vec4 clip, vec3 direction) {
+    vec4 d = frame.clip_from_cage * vec4(direction, 0.0);
+    return 0.5 * frame.viewport * (d.xy * clip.w - clip.xy * d.w) / (clip.w * clip.w);
+}
+
+// Width in pixels of a triangle with legs `du` and `dv`: its height over the longer one.
+float shade_triangle_width(vec2 du, vec2 dv) {
+    float longer = max(length(du), length(dv));
+    return longer > 0.0 ? abs(du.x * dv.y - du.y * dv.x) / longer : 0.0;
+}
+
+// Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Patches and valence: (u,v).
+vec2 shade_measure(vec3 b[16], vec2 uv, PatchPoint p, vec2 segments) {
+    if (frame.shade == SHADE_CURVATURE) {
+        return shade_curvature_at(b, uv);
+    }
+    if (frame.shade == SHADE_WIREFRAME) {
+        vec4 clip = clip_position(p.position);
+        vec2 step = 1.0 / max(segments, vec2(1.0));
+        return vec2(shade_triangle_width(shade_pixels(clip, p.du * step.x), shade_pixels(clip, p.dv * step.y)), 0.0);
+    }
+    return uv;
+}
+
+#endif
