@@ -2,6 +2,8 @@
 //! parallel, and every half-edge finds its twin by binary search in its bucket. Gathers only, so the parallel loops need no locks
 //! and the result does not depend on the number of threads.
 
+use std::collections::HashSet;
+
 use rayon::prelude::*;
 
 use super::{EdgeFaces, FaceCorner, Fans, Ring, Topology, TopologyError};
@@ -270,7 +272,7 @@ fn count_fans(topology: &Topology, vertices: &[u32]) -> Listed<Fans> {
 fn fans_of(topology: &Topology, vertex: u32, outgoing: &[u32]) -> Fans {
     // Open fans start where there is no twin; what they leave over are closed fans.
     let open = outgoing.iter().filter(|&&h| topology.twin(h) == NONE);
-    let mut seen: Vec<u32> = Vec::with_capacity(outgoing.len());
+    let mut seen: HashSet<u32> = HashSet::with_capacity(outgoing.len());
     let (mut fans, mut face) = (0, 0);
     for &h in open.chain(outgoing) {
         if !seen.contains(&h) {

@@ -275,6 +275,19 @@ fn closed_bow_tie() {
 }
 
 #[test]
+fn large_bow_ties_are_refused_in_linear_time() {
+    // Two cones that share their tip. Whatever compares each face there with all others takes a minute or more.
+    const VALENCE: u32 = 400_000;
+    let cone = |first: u32| (0..VALENCE).flat_map(move |i| [0, first + i, first + (i + 1) % VALENCE]);
+    let corners: Vec<u32> = cone(1).chain(cone(1 + VALENCE)).collect();
+    let offsets: Vec<u32> = (0..=2 * VALENCE).map(|f| 3 * f).collect();
+    let start = std::time::Instant::now();
+    let error = Topology::build(1 + 2 * VALENCE as usize, offsets, corners).expect_err("two fans");
+    assert!(start.elapsed().as_secs() < 10, "{:?}", start.elapsed());
+    assert!(error.to_string().contains("0 (2 fans)"), "{error}");
+}
+
+#[test]
 fn too_many_elements() {
     let error = super::build::check_counts(u32::MAX as usize, 3).expect_err("too many");
     assert_eq!(
