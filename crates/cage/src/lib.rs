@@ -18,13 +18,14 @@ mod obj;
 #[cfg(test)]
 mod random;
 mod read;
+mod reference;
 mod tags;
 mod topology;
 mod warning;
 mod weld;
 
 pub use bounds::Bounds;
-pub use cage::{Cage, CageDesc, FaceSet, FaceSetKind, FaceVarying};
+pub use cage::{Cage, CageDesc, FaceSet, FaceSetKind, FaceVarying, sub_faces};
 pub use error::{CageError, ReadError};
 pub use gltf::{AccessorError, GltfError, read_gltf};
 pub use inspect::{Inspection, Problem, inspect};

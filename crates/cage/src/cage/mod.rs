@@ -1,9 +1,13 @@
 //! The control cage.
 
+mod parts;
+
 use std::ops::Range;
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
+
+pub use parts::sub_faces;
 
 use crate::{BoundaryRule, Bounds, CageError, Listed, NONE, Tags, Topology, Warning};
 
