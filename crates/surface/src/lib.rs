@@ -12,6 +12,7 @@ pub mod masks;
 pub mod matrix;
 pub mod net;
 pub mod reference;
+pub mod stam;
 
 pub use matrix::Matrix;
 pub use net::NetKind;

@@ -95,6 +95,43 @@ impl Matrix {
         (0..self.rows).map(|r| self.row(r).iter().zip(net).map(|(&w, &p)| w * p).sum()).collect()
     }
 
+    /// The inverse of a square matrix, by Gauss-Jordan elimination with row pivoting, or `None` if it has none.
+    ///
+    /// # Panics
+    /// If the matrix is not square.
+    pub fn inverse(&self) -> Option<Self> {
+        assert_eq!(self.rows, self.cols, "only square matrices have inverses");
+        let n = self.rows;
+        let mut work =
+            Self::from_fn(n, 2 * n, |r, c| if c < n { self.get(r, c) } else { f64::from(u8::from(c - n == r)) });
+        for step in 0..n {
+            let pivot_row = (step..n).max_by(|&a, &b| work.get(a, step).abs().total_cmp(&work.get(b, step).abs()))?;
+            let pivot = work.get(pivot_row, step);
+            if !pivot.is_finite() || pivot == 0.0 {
+                return None;
+            }
+            work.swap_rows(step, pivot_row);
+            // Columns before `step` are those of the unit matrix already.
+            let source: Vec<f64> = work.row(step)[step..].iter().map(|w| w / pivot).collect();
+            for r in 0..n {
+                let factor = work.get(r, step);
+                let target = &mut work.data[r * 2 * n + step..(r + 1) * 2 * n];
+                if r == step {
+                    target.copy_from_slice(&source);
+                } else if factor != 0.0 {
+                    target.iter_mut().zip(&source).for_each(|(t, s)| *t -= factor * s);
+                }
+            }
+        }
+        Some(Self::from_fn(n, n, |r, c| work.get(r, n + c)))
+    }
+
+    fn swap_rows(&mut self, a: usize, b: usize) {
+        for c in 0..self.cols {
+            self.data.swap(a * self.cols + c, b * self.cols + c);
+        }
+    }
+
     /// All weights rounded to `f32`, row after row: what a storage buffer holds.
     #[expect(clippy::cast_possible_truncation, reason = "rounding to f32 is the purpose")]
     pub fn to_f32(&self) -> Vec<f32> {
@@ -112,6 +149,18 @@ mod tests {
         let b = Matrix::from_fn(3, 2, |r, c| 1.0 + (r * 2 + c) as f64);
         let net = [DVec3::new(1.0, -2.0, 0.5), DVec3::new(4.0, 0.0, 3.0)];
         assert_eq!(a.mul(&b).apply(&net), a.apply(&b.apply(&net)));
+    }
+
+    #[test]
+    fn inverse_undoes_and_singular_matrices_have_none() {
+        // A zero first pivot, and entries of very different size.
+        let a = Matrix::from_rows(&[[0.0, 2.0, 1.0], [1e-8, 1.0, 3.0], [4.0, -1.0, 1e3]]);
+        let unit = a.mul(&a.inverse().expect("regular matrix"));
+        for (r, c) in (0..3).flat_map(|r| (0..3).map(move |c| (r, c))) {
+            assert!((unit.get(r, c) - f64::from(u8::from(r == c))).abs() < 1e-12, "{unit:?}");
+        }
+        assert_eq!(Matrix::from_rows(&[[1.0, 2.0], [2.0, 4.0]]).inverse(), None);
+        assert_eq!(Matrix::from_rows(&[[f64::NAN]]).inverse(), None);
     }
 
     #[test]

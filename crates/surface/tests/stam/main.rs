@@ -1,0 +1,10 @@
+//! Stam's evaluation against refinement, against reference data from another implementation, and sides against the
+//! patches that share them. Run with `--nocapture` to see the figures.
+
+mod data;
+mod exact;
+mod fixtures;
+mod sides;
+#[path = "../star/mod.rs"]
+mod star;
+mod twin;
