@@ -2,10 +2,9 @@
 
 use glam::DVec3;
 
+use super::first_step::FirstStep;
 use super::limit::unit_cross;
 use super::neighbourhood::Neighbourhood;
-use super::star::{Ring, Star};
-use super::topology::Topology;
 use super::{Boundary, Mesh, MeshError};
 
 /// Steps after which a sample that has come no nearer to a regular patch is taken to lie on the
@@ -68,14 +67,14 @@ pub enum EvalError {
     },
 }
 
-/// Evaluates the limit surface of a mesh. Holds no more than the mesh's half-edges and keeps
-/// nothing between samples, so it can be shared by threads; a sample costs a few microseconds at
-/// low valence, in proportion to the size of the neighbourhood and to the logarithm of the distance
-/// from an irregular vertex.
+/// Evaluates the limit surface of a mesh. Holds the mesh's half-edges and a point per face and
+/// vertex, and keeps nothing between samples, so it can be shared by threads; a sample costs a few
+/// microseconds at low valence, in proportion to the size of the neighbourhood and to the logarithm
+/// of the distance from an irregular vertex.
 #[derive(Debug)]
 pub struct Reference<'a> {
     mesh: &'a Mesh,
-    topology: Topology,
+    first_step: FirstStep<'a>,
     rule: Boundary,
 }
 
@@ -117,7 +116,7 @@ impl<'a> Reference<'a> {
     /// # Errors
     /// If the mesh is not valid.
     pub fn new(mesh: &'a Mesh, rule: Boundary) -> Result<Self, MeshError> {
-        Ok(Self { mesh, topology: Topology::new(mesh)?, rule })
+        Ok(Self { mesh, first_step: FirstStep::new(mesh, rule)?, rule })
     }
 
     /// The limit surface of face `face`, sub-face `sub`, at (s,t) in its unit square; see the
@@ -130,16 +129,14 @@ impl<'a> Reference<'a> {
         if !((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)) {
             return Err(EvalError::OutsideUnitSquare { s, t });
         }
-        // Differences of input points are exact to rounding, so a mesh far from the origin loses
-        // nothing.
         let origin = self.mesh.positions[self.mesh.face(face)[0] as usize];
-        let stars = self.refined_stars(face, origin);
+        let quad = |corner| self.first_step.child(face, corner, origin);
         let place = Place { s, t };
         let descent = match child {
-            Some(child) => Descent { quad: Neighbourhood::of_child(&stars, child), place, origin, scale: 1.0 },
+            Some(child) => Descent { quad: quad(child), place, origin, scale: 1.0 },
             None => {
                 let (corner, place) = place.quarter();
-                Descent { quad: Neighbourhood::of_child(&stars, corner).turned(corner), place, origin, scale: 2.0 }
+                Descent { quad: quad(corner).turned(corner), place, origin, scale: 2.0 }
             }
         };
         Ok(descent.run(self.rule))
@@ -157,32 +154,6 @@ impl<'a> Reference<'a> {
             Ok(child) if sides != 4 && child < sides => Ok(Some(child)),
             _ => Err(EvalError::NoSuchSubFace { face, sides, sub }),
         }
-    }
-
-    /// The stars of the corners of a face after one step, relative to `origin`.
-    fn refined_stars(&self, face: usize, origin: DVec3) -> Vec<Star> {
-        let half_edges = self.mesh.face_offsets[face]..self.mesh.face_offsets[face + 1];
-        half_edges.map(|half_edge| self.refined_star(half_edge, origin)).collect()
-    }
-
-    /// The star of the vertex that `half_edge` leaves, after the one step that turns faces of any
-    /// size into quads.
-    fn refined_star(&self, half_edge: u32, origin: DVec3) -> Star {
-        let (mesh, topology) = (self.mesh, &self.topology);
-        let point = |vertex: u32| mesh.positions[vertex as usize] - origin;
-        let fan = topology.fan(mesh, half_edge);
-        let mut spokes: Vec<DVec3> = fan.outgoing.iter().map(|&h| point(topology.ends(mesh, h).1)).collect();
-        if !fan.closed {
-            let last = fan.outgoing[fan.outgoing.len() - 1];
-            spokes.push(point(topology.ends(mesh, topology.previous(mesh, last)).0));
-        }
-        let centroid = |h: u32| {
-            let ring = mesh.face(topology.face(h));
-            ring.iter().map(|&vertex| point(vertex)).sum::<DVec3>() / ring.len() as f64
-        };
-        let centre = point(mesh.face_vertices[half_edge as usize]);
-        let face_points = fan.outgoing.iter().map(|&h| centroid(h)).collect();
-        Ring { centre, spokes: &spokes, face_points, core: fan.core }.refine(self.rule)
     }
 }
 

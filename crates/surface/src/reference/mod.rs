@@ -19,6 +19,7 @@
 //! | `limit` | limit masks of a star: position, tangents, normal |
 //! | `neighbourhood` | one quad and all quads that touch it: children, the regular 4 x 4 grid |
 //! | `bicubic` | the uniform bicubic B-spline |
+//! | `first_step` | from faces of any size to quads |
 //! | `evaluator` | [`Reference`]: the descent |
 //!
 //! # Sampling convention
@@ -29,6 +30,7 @@
 
 mod bicubic;
 mod evaluator;
+mod first_step;
 mod limit;
 mod mesh;
 mod neighbourhood;

@@ -16,26 +16,22 @@ pub(super) struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// The child quad at corner `corner` of a face, from the refined stars around all corners of
-    /// the face. Its corners are: the vertex point, the edge point to the next corner, the face
-    /// point, the edge point to the previous corner.
-    pub(super) fn of_child(refined: &[Star], corner: usize) -> Self {
-        let n = refined.len();
-        let (here, next, previous) = (&refined[corner], &refined[(corner + 1) % n], &refined[(corner + n - 1) % n]);
-        Self {
-            stars: [
-                here.clone(),
-                leaving_edge_star(here, next),
-                face_star(refined, corner),
-                arriving_edge_star(here, previous),
-            ],
-        }
+    /// A child quad of a face, from the refined stars around the corner of the face that it is at,
+    /// the next corner, the previous corner, and the face point. Its corners are: the vertex point,
+    /// the edge point to the next corner, the face point, the edge point to the previous corner.
+    pub(super) fn of_child(here: Star, next: &Star, previous: &Star, face: Star) -> Self {
+        let (leaving, arriving) = (leaving_edge_star(&here, next), arriving_edge_star(&here, previous));
+        Self { stars: [here, leaving, face, arriving] }
     }
 
     /// The child at corner `corner` of this quad, turned so that its (s,t) run as those of the
     /// quad.
     pub(super) fn child(&self, corner: usize, rule: Boundary) -> Self {
-        Self::of_child(&self.stars.each_ref().map(|star| star.refine(rule)), corner).turned(corner)
+        let mut refined = self.stars.each_ref().map(|star| star.refine(rule));
+        refined.rotate_left(corner);
+        let face = face_star(&refined);
+        let [here, next, _, previous] = refined;
+        Self::of_child(here, &next, &previous, face).turned(corner)
     }
 
     /// The same quad with its corner 0 named `corner`.
@@ -111,14 +107,13 @@ fn arriving_edge_star(here: &Star, previous: &Star) -> Star {
     }
 }
 
-/// The star around the face point, its core the child at `corner`.
-fn face_star(refined: &[Star], corner: usize) -> Star {
-    let n = refined.len();
-    let around = |first: usize| (0..n).map(move |i| &refined[(first + i) % n]);
+/// The star around the face point of a quad, its core the child at the first corner.
+fn face_star(refined: &[Star; 4]) -> Star {
+    let [here, next, opposite, previous] = refined;
     Star {
-        centre: refined[corner].diagonals[refined[corner].core],
-        spokes: around(corner + n - 1).map(Star::leaving).collect(),
-        diagonals: around(corner).map(|star| star.centre).collect(),
+        centre: here.diagonals[here.core],
+        spokes: [previous, here, next, opposite].map(Star::leaving).to_vec(),
+        diagonals: refined.each_ref().map(|star| star.centre).to_vec(),
         core: 0,
     }
 }

@@ -1,6 +1,8 @@
 //! A star: one vertex and the quads around it, refined as a whole. What a subdivision step does
 //! around a vertex needs nothing but its star.
 
+use std::borrow::Cow;
+
 use glam::DVec3;
 
 use super::Boundary;
@@ -94,7 +96,7 @@ impl Star {
         let face_point =
             |i: usize| 0.25 * (self.centre + self.spokes[i] + self.diagonals[i] + self.spokes[(i + 1) % n]);
         let face_points = (0..self.diagonals.len()).map(face_point).collect();
-        Ring { centre: self.centre, spokes: &self.spokes, face_points, core: self.core }.refine(rule)
+        Ring { centre: self.centre, spokes: (&self.spokes).into(), face_points, core: self.core }.refine(rule)
     }
 
     /// Moves all points by `-origin`.
@@ -111,7 +113,7 @@ impl Star {
 pub(super) struct Ring<'a> {
     pub(super) centre: DVec3,
     /// The neighbours along the edges.
-    pub(super) spokes: &'a [DVec3],
+    pub(super) spokes: Cow<'a, [DVec3]>,
     /// The centroids of the faces.
     pub(super) face_points: Vec<DVec3>,
     pub(super) core: usize,
@@ -125,20 +127,16 @@ impl Ring<'_> {
         Star { centre: self.vertex_point(rule), spokes, diagonals: self.face_points, core: self.core }
     }
 
-    /// The mean of both ends and both face points, on the boundary the midpoint.
     fn edge_point(&self, i: usize) -> DVec3 {
-        let ends = self.centre + self.spokes[i];
         let faces = self.face_points.len();
-        let open = self.spokes.len() > faces;
-        if open && (i == 0 || i == faces) {
-            return 0.5 * ends;
-        }
-        0.25 * (ends + self.face_points[(i + faces - 1) % faces] + self.face_points[i])
+        let is_boundary = self.spokes.len() > faces && (i == 0 || i == faces);
+        let beside = || [(i + faces - 1) % faces, i].map(|face| self.face_points[face]);
+        edge_point([self.centre, self.spokes[i]], (!is_boundary).then(beside))
     }
 
     /// Weights (n-2)/n, 1/n^2, 1/n^2 of the vertex, its n neighbours and its n face points; on the
     /// boundary 6:1:1 along the boundary.
-    fn vertex_point(&self, rule: Boundary) -> DVec3 {
+    pub(super) fn vertex_point(&self, rule: Boundary) -> DVec3 {
         match Kind::of(self.spokes.len(), self.face_points.len(), rule) {
             Kind::Corner => self.centre,
             Kind::Crease => (6.0 * self.centre + self.spokes[0] + self.spokes[self.spokes.len() - 1]) / 8.0,
@@ -149,4 +147,11 @@ impl Ring<'_> {
             }
         }
     }
+}
+
+/// The new point on an edge: the mean of both ends and both face points beside it, on the boundary
+/// the midpoint.
+pub(super) fn edge_point(ends: [DVec3; 2], beside: Option<[DVec3; 2]>) -> DVec3 {
+    let ends = ends[0] + ends[1];
+    beside.map_or(0.5 * ends, |[right, left]| 0.25 * (ends + right + left))
 }

@@ -81,6 +81,11 @@ impl Topology {
         self.faces[half_edge as usize] as usize
     }
 
+    /// The half-edge across a half-edge's edge, `None` at the boundary.
+    pub(super) fn twin(&self, half_edge: u32) -> Option<u32> {
+        self.twins[half_edge as usize]
+    }
+
     /// The first half-edge of the face and its number of sides.
     fn loop_of(&self, mesh: &Mesh, half_edge: u32) -> (u32, u32) {
         let face = self.face(half_edge);
@@ -104,11 +109,11 @@ impl Topology {
     }
 
     fn clockwise(&self, mesh: &Mesh, half_edge: u32) -> Option<u32> {
-        self.twins[half_edge as usize].map(|twin| self.next(mesh, twin))
+        self.twin(half_edge).map(|twin| self.next(mesh, twin))
     }
 
     fn counter_clockwise(&self, mesh: &Mesh, half_edge: u32) -> Option<u32> {
-        self.twins[self.previous(mesh, half_edge) as usize]
+        self.twin(self.previous(mesh, half_edge))
     }
 
     /// All half-edges out of the vertex that `half_edge` leaves.

@@ -2,6 +2,7 @@
 
 mod brute_force;
 mod cages;
+mod large;
 mod smoothness;
 mod symmetry;
 mod vertices;
