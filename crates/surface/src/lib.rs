@@ -5,6 +5,7 @@
 
 mod angle;
 pub mod bezier;
+pub mod biseptic;
 pub mod bspline;
 pub mod gregory;
 pub mod jet;
