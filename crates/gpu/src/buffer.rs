@@ -2,17 +2,15 @@
 
 use std::{
     ops::{Bound, Range, RangeBounds},
-    sync::{
-        Arc,
-        atomic::{AtomicU64, Ordering},
-    },
+    ptr::NonNull,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
 use ash::vk;
 use bytemuck::{NoUninit, Pod};
 use gpu_allocator::MemoryLocation;
 
-use crate::{Device, GpuError, Recording, memory::Block, owned::Owned, resource::ResourceId};
+use crate::{Device, GpuError, Recording, info::TRANSFORM_FEEDBACK, memory::Block, owned::Owned, resource::ResourceId};
 
 bitflags::bitflags! {
     /// What a buffer is for; copying from and to it is always allowed.
@@ -55,6 +53,10 @@ pub struct BufferDesc<'a> {
 }
 
 /// A piece of memory that shaders and passes use. Clones share it.
+///
+/// Threads may use one buffer at the same time: writes and reads by the host and submissions that use the buffer follow one
+/// another, in an order of their choice. While one thread waits in [`Self::write`] or [`Self::read`], others that submit work
+/// with this buffer wait too.
 #[derive(Clone)]
 pub struct Buffer {
     inner: Arc<Inner>,
@@ -71,8 +73,9 @@ struct Inner {
     real_size: u64,
     usage: BufferUsage,
     memory: Memory,
-    /// Timeline value of the last submission that uses the buffer.
-    last_use: AtomicU64,
+    /// Timeline value of the last submission that uses the buffer. Locked as long as the host touches the content, and while
+    /// a submission that uses the buffer is on its way; see `submission` for the order of locks.
+    last_use: Mutex<u64>,
     device: Device,
 }
 
@@ -80,7 +83,7 @@ impl Device {
     /// Makes a buffer. What is in it is undefined until written.
     pub fn buffer(&self, desc: &BufferDesc<'_>) -> Result<Buffer, GpuError> {
         if desc.usage.contains(BufferUsage::CAPTURE) && !self.info().features.transform_feedback {
-            return Err(self.missing(format!("buffer {:?}", desc.name), "VK_EXT_transform_feedback"));
+            return Err(self.missing(format!("buffer {:?}", desc.name), TRANSFORM_FEEDBACK));
         }
         let limit = self.info().limits.max_memory_allocation;
         if desc.size > limit {
@@ -118,7 +121,7 @@ impl Device {
             real_size,
             usage: desc.usage,
             memory: desc.memory,
-            last_use: AtomicU64::new(0),
+            last_use: Mutex::new(0),
             device: self.clone(),
         };
         Ok(Buffer { inner: Arc::new(inner) })
@@ -185,7 +188,8 @@ impl Buffer {
         self.inner.memory
     }
 
-    /// Writes `data` at `offset` bytes. Only for [`Memory::Upload`]. Waits until submissions that use the buffer are done.
+    /// Writes `data` at `offset` bytes. Only for [`Memory::Upload`]. Waits until submissions that use the buffer are done; later
+    /// ones, by any thread, see all of it.
     pub fn write<T: NoUninit>(&self, offset: u64, data: &[T]) -> Result<(), GpuError> {
         if self.inner.memory != Memory::Upload {
             return Err(self.misuse("writing by the host", "it is not in upload memory; use Device::upload or a copy"));
@@ -212,30 +216,47 @@ impl Buffer {
 
     /// Copies host bytes into memory that the host sees.
     fn write_bytes(&self, offset: u64, bytes: &[u8]) -> Result<(), GpuError> {
-        let (target, length) = self.mapped(offset, bytes.len(), "writing by the host")?;
-        // SAFETY: `mapped` checked that `length` bytes from `target` lie in this buffer's mapped memory, which lives as long as
-        // self; the source is a slice of that length; the two cannot overlap, since the mapping is never lent out. The GPU is
-        // done with earlier submissions, and makes host writes visible to later ones.
-        unsafe { target.copy_from_nonoverlapping(std::ptr::NonNull::from(bytes).cast(), length) };
+        const WHAT: &str = "writing by the host";
+        let target = self.mapped(offset, bytes.len(), WHAT)?;
+        let _idle = self.idle(WHAT)?;
+        // SAFETY: `mapped` checked that as many bytes as the slice has lie at `target` in this buffer's mapped memory, which
+        // lives as long as self; the two cannot overlap, since the mapping is never lent out. While `_idle` lives, neither the
+        // GPU nor another thread touches the content; the GPU sees host writes that come before a submission.
+        unsafe { target.copy_from_nonoverlapping(NonNull::from(bytes).cast(), bytes.len()) };
         Ok(())
     }
 
     /// Copies bytes from memory that the host sees.
     fn read_bytes(&self, offset: u64, bytes: &mut [u8]) -> Result<(), GpuError> {
-        let (source, length) = self.mapped(offset, bytes.len(), "reading by the host")?;
+        const WHAT: &str = "reading by the host";
+        let source = self.mapped(offset, bytes.len(), WHAT)?;
+        let _idle = self.idle(WHAT)?;
+        let length = bytes.len();
         // SAFETY: as in `write_bytes`, with the roles exchanged; a submission ends by making its writes visible to the host.
-        unsafe { source.copy_to_nonoverlapping(std::ptr::NonNull::from(bytes).cast(), length) };
+        unsafe { source.copy_to_nonoverlapping(NonNull::from(bytes).cast(), length) };
         Ok(())
     }
 
-    /// Where the host sees `length` bytes at `offset`, once the GPU is done with the buffer.
-    fn mapped(&self, offset: u64, length: usize, what: &str) -> Result<(std::ptr::NonNull<u8>, usize), GpuError> {
+    /// Where the host sees `length` bytes at `offset`.
+    fn mapped(&self, offset: u64, length: usize, what: &str) -> Result<NonNull<u8>, GpuError> {
         let end = offset.saturating_add(length as u64);
         self.check(offset..end, what)?;
         let pointer = self.inner.block.mapped().ok_or_else(|| self.misuse(what, "the host does not see its memory"))?;
-        self.inner.device.wait_for(self.inner.last_use.load(Ordering::Acquire), what)?;
         // SAFETY: `check` found that the range ends within the buffer, and the mapping covers the whole of it.
-        Ok((unsafe { pointer.add(usize::try_from(offset).unwrap_or(usize::MAX)) }, length))
+        Ok(unsafe { pointer.add(usize::try_from(offset).unwrap_or(usize::MAX)) })
+    }
+
+    /// Waits until the GPU is done with the buffer. While the guard lives, the content belongs to this thread alone.
+    fn idle(&self, what: &str) -> Result<MutexGuard<'_, u64>, GpuError> {
+        let last_use = self.lock();
+        self.inner.device.wait_for(*last_use, what)?;
+        Ok(last_use)
+    }
+
+    /// Keeps the host off the content, and other submissions. The value is that of the timeline after the last submission
+    /// that uses the buffer; it is right after a panic elsewhere too, since it changes only after a submission.
+    pub(crate) fn lock(&self) -> MutexGuard<'_, u64> {
+        self.inner.last_use.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     /// The bytes that a range of any form means.
@@ -289,11 +310,6 @@ impl Buffer {
 
     pub(crate) fn device(&self) -> &Device {
         &self.inner.device
-    }
-
-    /// Remembers a submission that uses the buffer. Called with the queue locked, so values only grow.
-    pub(crate) fn used_by(&self, timeline_value: u64) {
-        self.inner.last_use.store(timeline_value, Ordering::Release);
     }
 }
 

@@ -36,7 +36,9 @@ pub fn devices() -> Result<Vec<DeviceInfo>, DeviceError> {
 
 /// An open device. Clones share it; it closes when the last clone and the last object made from it are gone.
 ///
-/// All methods may be called from any thread. Submissions run in the order in which they are made.
+/// All methods of the device and of what is made from it may be called from any thread, at the same time too. Submissions run
+/// in the order in which they are made; threads that submit at the same time are served in any order, and so is a thread that
+/// reads or writes a [`Buffer`](crate::Buffer) by the host meanwhile.
 #[derive(Clone)]
 pub struct Device {
     pub(crate) shared: Arc<Shared>,
@@ -163,21 +165,15 @@ impl std::fmt::Debug for Device {
     }
 }
 
-/// Creates the logical device with every feature that [`DeviceInfo::features`] lists.
+/// Creates the logical device with the required features and every one that [`DeviceInfo::features`] lists. What shaders may
+/// use beyond Vulkan's core is also held in `reflect`, which refuses the rest.
 fn create_device(instance: &Instance, physical: &Physical) -> Result<ash::Device, DeviceError> {
     let has = physical.info.features;
     let core = vk::PhysicalDeviceFeatures::default()
         .tessellation_shader(true)
         .robust_buffer_access(true)
         .fill_mode_non_solid(has.wireframe)
-        .pipeline_statistics_query(has.pipeline_statistics)
-        .vertex_pipeline_stores_and_atomics(has.vertex_stores)
-        .fragment_stores_and_atomics(has.fragment_stores)
-        .geometry_shader(has.geometry)
-        .sample_rate_shading(has.sample_shading)
-        .shader_float64(has.float64)
-        .shader_int64(has.int64)
-        .shader_clip_distance(has.clip_distance);
+        .pipeline_statistics_query(has.pipeline_statistics);
     let mut v12 =
         vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true).scalar_block_layout(has.scalar_layout);
     let mut v13 =

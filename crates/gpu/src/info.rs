@@ -90,6 +90,16 @@ pub struct Limits {
     pub max_push_constants: u32,
     /// Most buffers that one pipeline binds.
     pub max_push_descriptors: u32,
+    /// Most storage buffers that one pipeline binds.
+    pub max_pipeline_storage_buffers: u32,
+    /// Most uniform buffers that one pipeline binds.
+    pub max_pipeline_uniform_buffers: u32,
+    /// Most storage buffers that one stage of a pipeline uses.
+    pub max_stage_storage_buffers: u32,
+    /// Most uniform buffers that one stage of a pipeline uses.
+    pub max_stage_uniform_buffers: u32,
+    /// Most buffers of both kinds that one stage of a pipeline uses; in the fragment stage the colour target counts too.
+    pub max_stage_resources: u32,
     /// Highest tessellation level.
     pub max_tessellation_level: u32,
     /// Most points in a patch, in and out.
@@ -104,6 +114,8 @@ pub struct Limits {
     pub sample_counts: Vec<u32>,
     /// Most bytes that one capture pass writes into one buffer; 0 without transform feedback.
     pub max_capture_buffer: u64,
+    /// Most bytes per vertex that a capture pass writes; 0 without transform feedback.
+    pub max_capture_stride: u32,
     /// Nanoseconds per tick of GPU time; 0 if GPU time cannot be measured.
     pub timestamp_period: f32,
 }
@@ -112,29 +124,18 @@ pub struct Limits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Features {
-    /// `VK_EXT_transform_feedback`: capture passes.
+    /// `VK_EXT_transform_feedback` with `transformFeedbackQueries`, which count what was captured: capture passes.
     pub transform_feedback: bool,
     /// `fillModeNonSolid`: [`PolygonMode::Line`](crate::PolygonMode::Line).
     pub wireframe: bool,
     /// `pipelineStatisticsQuery`: counts of shader invocations.
     pub pipeline_statistics: bool,
-    /// `vertexPipelineStoresAndAtomics`: vertex and tessellation stages may write buffers.
-    pub vertex_stores: bool,
-    /// `fragmentStoresAndAtomics`: fragment stages may write buffers.
-    pub fragment_stores: bool,
-    /// `geometryShader`: `gl_PrimitiveID` in fragment stages.
-    pub geometry: bool,
-    /// `sampleRateShading`.
-    pub sample_shading: bool,
-    /// `shaderFloat64`.
-    pub float64: bool,
-    /// `shaderInt64`.
-    pub int64: bool,
     /// `scalarBlockLayout`: buffers of three-component vectors without padding.
     pub scalar_layout: bool,
-    /// `shaderClipDistance`.
-    pub clip_distance: bool,
 }
+
+/// What [`Features::transform_feedback`] stands for, in messages.
+pub(crate) const TRANSFORM_FEEDBACK: &str = "VK_EXT_transform_feedback with transformFeedbackQueries";
 
 /// A physical device and what was found out about it.
 pub(crate) struct Physical {
@@ -192,12 +193,21 @@ fn examine(instance: &ash::Instance, index: usize, raw: vk::PhysicalDevice) -> R
         missing.push("a queue with graphics and compute".to_owned());
     }
     let (queue_family, timestamp_mask) = queue_family.unwrap_or_default();
-    let (info, cache_identity) = find_properties(instance, raw, modern, extensions);
+    let Properties { info, cache_identity, counts_captures } = find_properties(instance, raw, modern, extensions);
     let mut info = DeviceInfo { index, api_version: version_text(version), features, missing, ..info };
-    if timestamp_mask == 0 {
-        info.limits.timestamp_period = 0.0;
-    }
+    info.features.transform_feedback &= counts_captures;
+    close(&mut info.limits, info.features, timestamp_mask);
     Ok(Physical { raw, info, queue_family, timestamp_mask, extensions, cache_identity })
+}
+
+/// Zeroes the limits of what the device cannot do.
+fn close(limits: &mut Limits, features: Features, timestamp_mask: u64) {
+    if timestamp_mask == 0 {
+        limits.timestamp_period = 0.0;
+    }
+    if !features.transform_feedback {
+        (limits.max_capture_buffer, limits.max_capture_stride) = (0, 0);
+    }
 }
 
 fn version_text(version: u32) -> String {
@@ -255,25 +265,26 @@ fn find_features(instance: &ash::Instance, raw: vk::PhysicalDevice, extensions: 
         transform_feedback: yes(feedback.transform_feedback),
         wireframe: yes(core.fill_mode_non_solid),
         pipeline_statistics: yes(core.pipeline_statistics_query),
-        vertex_stores: yes(core.vertex_pipeline_stores_and_atomics),
-        fragment_stores: yes(core.fragment_stores_and_atomics),
-        geometry: yes(core.geometry_shader),
-        sample_shading: yes(core.sample_rate_shading),
-        float64: yes(core.shader_float64),
-        int64: yes(core.shader_int64),
         scalar_layout: yes(v12.scalar_block_layout),
-        clip_distance: yes(core.shader_clip_distance),
     };
     (features, missing)
 }
 
-/// Names, kind and limits; index, version, features and what is missing are left at their defaults.
+/// What [`find_properties`] finds.
+struct Properties {
+    /// Names, kind and limits; index, version, features and what is missing are left at their defaults.
+    info: DeviceInfo,
+    cache_identity: CacheIdentity,
+    /// Transform feedback has queries of what was written.
+    counts_captures: bool,
+}
+
 fn find_properties(
     instance: &ash::Instance,
     raw: vk::PhysicalDevice,
     modern: bool,
     extensions: Extensions,
-) -> (DeviceInfo, CacheIdentity) {
+) -> Properties {
     let mut driver = vk::PhysicalDeviceDriverProperties::default();
     let mut v11 = vk::PhysicalDeviceVulkan11Properties::default();
     let mut push = vk::PhysicalDevicePushDescriptorPropertiesKHR::default();
@@ -295,6 +306,7 @@ fn find_properties(
         max_memory_allocation: v11.max_memory_allocation_size,
         max_push_descriptors: push.max_push_descriptors,
         max_capture_buffer: feedback.max_transform_feedback_buffer_size,
+        max_capture_stride: capture_stride(&feedback),
         ..core_limits(&core.limits)
     };
     let text = |name: Result<&CStr, _>| name.map_or_else(|_| String::new(), |name| name.to_string_lossy().into_owned());
@@ -310,8 +322,15 @@ fn find_properties(
         features: Features::default(),
         missing: Vec::new(),
     };
-    let identity = CacheIdentity { vendor: core.vendor_id, device: core.device_id, uuid: core.pipeline_cache_uuid };
-    (info, identity)
+    let cache_identity =
+        CacheIdentity { vendor: core.vendor_id, device: core.device_id, uuid: core.pipeline_cache_uuid };
+    Properties { info, cache_identity, counts_captures: feedback.transform_feedback_queries == vk::TRUE }
+}
+
+/// The stride that is within all limits of one vertex's data, which can be as long as the stride.
+fn capture_stride(feedback: &vk::PhysicalDeviceTransformFeedbackPropertiesEXT<'_>) -> u32 {
+    let data = feedback.max_transform_feedback_buffer_data_size.min(feedback.max_transform_feedback_stream_data_size);
+    feedback.max_transform_feedback_buffer_data_stride.min(data)
 }
 
 /// The limits of Vulkan 1.0.
@@ -325,6 +344,11 @@ fn core_limits(core: &vk::PhysicalDeviceLimits) -> Limits {
         storage_buffer_alignment: core.min_storage_buffer_offset_alignment,
         uniform_buffer_alignment: core.min_uniform_buffer_offset_alignment,
         max_push_constants: core.max_push_constants_size,
+        max_pipeline_storage_buffers: core.max_descriptor_set_storage_buffers,
+        max_pipeline_uniform_buffers: core.max_descriptor_set_uniform_buffers,
+        max_stage_storage_buffers: core.max_per_stage_descriptor_storage_buffers,
+        max_stage_uniform_buffers: core.max_per_stage_descriptor_uniform_buffers,
+        max_stage_resources: core.max_per_stage_resources,
         max_tessellation_level: core.max_tessellation_generation_level,
         max_patch_vertices: core.max_tessellation_patch_size,
         max_work_groups: core.max_compute_work_group_count,
@@ -333,5 +357,36 @@ fn core_limits(core: &vk::PhysicalDeviceLimits) -> Limits {
         sample_counts: samples.collect(),
         timestamp_period: core.timestamp_period,
         ..Limits::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_a_device_cannot_do_has_no_limits() {
+        let open = Limits { max_capture_buffer: 9, max_capture_stride: 8, timestamp_period: 1.0, ..Limits::default() };
+        let can = Features { transform_feedback: true, ..Features::default() };
+        let closed = |features, mask| {
+            let mut limits = open.clone();
+            close(&mut limits, features, mask);
+            (limits.max_capture_buffer, limits.max_capture_stride, limits.timestamp_period)
+        };
+        assert_eq!(closed(can, 1), (9, 8, 1.0));
+        assert_eq!(closed(Features::default(), 1), (0, 0, 1.0));
+        assert_eq!(closed(can, 0), (9, 8, 0.0));
+    }
+
+    #[test]
+    fn the_smallest_limit_of_a_vertexs_data_holds() {
+        let limits = |stride, buffer, stream| {
+            let all = vk::PhysicalDeviceTransformFeedbackPropertiesEXT::default();
+            let all = all.max_transform_feedback_buffer_data_stride(stride);
+            capture_stride(
+                &all.max_transform_feedback_buffer_data_size(buffer).max_transform_feedback_stream_data_size(stream),
+            )
+        };
+        assert_eq!([limits(1, 2, 3), limits(3, 1, 2), limits(2, 3, 1)], [1; 3]);
     }
 }

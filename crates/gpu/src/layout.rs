@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use crate::{BufferKind, Device, GpuError, Reflection, Stage, owned::Owned};
+use crate::{BufferKind, Device, GpuError, Limits, Reflection, Stage, owned::Owned};
 
 /// A buffer that some stages of a pipeline use.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -27,6 +27,49 @@ pub(crate) struct Interface {
     pub(crate) bindings: Vec<LayoutBinding>,
     pub(crate) push_size: u32,
     pub(crate) push_stages: vk::ShaderStageFlags,
+}
+
+impl Interface {
+    /// Fails if the pipeline takes more of anything than a device with these limits has.
+    fn check(&self, pipeline: &str, limits: &Limits) -> Result<(), GpuError> {
+        match self.demands(limits).into_iter().find(|(_, value, limit)| *value > u64::from(*limit)) {
+            None => Ok(()),
+            Some((what, value, limit)) => {
+                Err(GpuError::Limit { what: format!("{what} of pipeline {pipeline:?}"), value, limit: limit.into() })
+            }
+        }
+    }
+
+    /// All that is limited: what it is, how much of it the pipeline takes, and the limit. Chapter "Limits" of the Vulkan
+    /// specification; descriptor sets are one here, so that its limits are the pipeline's.
+    fn demands(&self, limits: &Limits) -> Vec<(String, u64, u32)> {
+        use BufferKind::{Storage, Uniform};
+        let count = |kind, stages| self.count(|one| one.kind == kind && one.stages.intersects(stages));
+        let all = vk::ShaderStageFlags::ALL;
+        let mut demands = vec![
+            ("bytes of push constants".to_owned(), u64::from(self.push_size), limits.max_push_constants),
+            ("buffers".to_owned(), self.count(|_| true), limits.max_push_descriptors),
+            ("storage buffers".to_owned(), count(Storage, all), limits.max_pipeline_storage_buffers),
+            ("uniform buffers".to_owned(), count(Uniform, all), limits.max_pipeline_uniform_buffers),
+        ];
+        for stage in Stage::ALL {
+            let flag = stage_flags(stage).0;
+            let (storage, uniform) = (count(Storage, flag), count(Uniform, flag));
+            // Whether there is a colour target is not known here; one resource less harms nobody.
+            let target = u64::from(stage == Stage::Fragment);
+            let resources = storage + uniform + target;
+            demands.extend([
+                (format!("storage buffers in the {stage} stage"), storage, limits.max_stage_storage_buffers),
+                (format!("uniform buffers in the {stage} stage"), uniform, limits.max_stage_uniform_buffers),
+                (format!("resources in the {stage} stage"), resources, limits.max_stage_resources),
+            ]);
+        }
+        demands
+    }
+
+    fn count(&self, which: impl Fn(&LayoutBinding) -> bool) -> u64 {
+        self.bindings.iter().filter(|one| which(one)).count() as u64
+    }
 }
 
 /// Merges what the stages of a pipeline declare.
@@ -97,7 +140,7 @@ pub(crate) struct Layout {
 
 impl Device {
     pub(crate) fn layout(&self, name: &str, interface: Interface) -> Result<Arc<Layout>, GpuError> {
-        self.check_interface(name, &interface)?;
+        interface.check(name, &self.info().limits)?;
         let set = self.set_layout(name, &interface)?;
         let sets = [set.raw];
         let push = [vk::PushConstantRange::default().stage_flags(interface.push_stages).size(interface.push_size)];
@@ -105,24 +148,10 @@ impl Device {
         if interface.push_size > 0 {
             info = info.push_constant_ranges(&push);
         }
-        // SAFETY: the set layout is alive and the push constants are within the limit.
+        // SAFETY: the set layout is alive; push constants and resources of every stage are within the limits.
         let raw = unsafe { self.raw().create_pipeline_layout(&info, None) }
             .map_err(|result| GpuError::from_vulkan(format!("creating the layout of {name:?}"), result))?;
         Ok(Arc::new(Layout { raw: Owned::new(&self.shared.raw, raw, name), _set: set, interface }))
-    }
-
-    fn check_interface(&self, name: &str, interface: &Interface) -> Result<(), GpuError> {
-        let limits = &self.info().limits;
-        let counts = [
-            ("bytes of push constants", u64::from(interface.push_size), limits.max_push_constants),
-            ("buffers", interface.bindings.len() as u64, limits.max_push_descriptors),
-        ];
-        match counts.into_iter().find(|(_, value, limit)| *value > u64::from(*limit)) {
-            None => Ok(()),
-            Some((what, value, limit)) => {
-                Err(GpuError::Limit { what: format!("{what} of pipeline {name:?}"), value, limit: limit.into() })
-            }
-        }
     }
 
     fn set_layout(&self, name: &str, interface: &Interface) -> Result<Owned<vk::DescriptorSetLayout>, GpuError> {
@@ -130,7 +159,7 @@ impl Device {
         let info = vk::DescriptorSetLayoutCreateInfo::default()
             .flags(vk::DescriptorSetLayoutCreateFlags::PUSH_DESCRIPTOR_KHR)
             .bindings(&bindings);
-        // SAFETY: binding numbers are distinct and their count is within the limit of push descriptors.
+        // SAFETY: binding numbers are distinct, and their count is within the limits of a set, a stage and push descriptors.
         let raw = unsafe { self.raw().create_descriptor_set_layout(&info, None) }
             .map_err(|result| GpuError::from_vulkan(format!("creating the bindings of {name:?}"), result))?;
         Ok(Owned::new(&self.shared.raw, raw, name))
@@ -205,5 +234,55 @@ mod tests {
         let fragment = shader(Stage::Fragment, 0, &[(1, BufferKind::Uniform, true, false)]);
         let error = merge("p", &[("v", &vertex), ("f", &fragment)]).unwrap_err().to_string();
         assert!(error.contains("\"v\"") && error.contains("\"f\"") && error.contains("binding 1"), "{error}");
+    }
+    /// Limits that nothing here exceeds.
+    fn roomy() -> Limits {
+        Limits {
+            max_push_constants: 128,
+            max_push_descriptors: 32,
+            max_pipeline_storage_buffers: 32,
+            max_pipeline_uniform_buffers: 32,
+            max_stage_storage_buffers: 32,
+            max_stage_uniform_buffers: 32,
+            max_stage_resources: 32,
+            ..Limits::default()
+        }
+    }
+
+    /// The vertex stage has 3 storage buffers and 1 uniform buffer, the fragment stage 2 and 2, of which they share one each:
+    /// with the colour target 5 resources in the fragment stage.
+    #[test]
+    fn every_limit_counts_and_is_named() {
+        use BufferKind::{Storage, Uniform};
+        let read = |(binding, kind)| (binding, kind, true, false);
+        let vertex = shader(Stage::Vertex, 8, &[(0, Storage), (1, Storage), (2, Storage), (3, Uniform)].map(read));
+        let fragment = shader(Stage::Fragment, 16, &[(0, Storage), (4, Storage), (3, Uniform), (5, Uniform)].map(read));
+        let interface = merge("p", &[("v", &vertex), ("f", &fragment)]).unwrap();
+        type Field = fn(&mut Limits) -> &mut u32;
+        let cases: [(&str, u32, Field); 7] = [
+            ("bytes of push constants of pipeline \"p\"", 16, |limits| &mut limits.max_push_constants),
+            ("buffers of pipeline \"p\"", 6, |limits| &mut limits.max_push_descriptors),
+            ("storage buffers of pipeline \"p\"", 4, |limits| &mut limits.max_pipeline_storage_buffers),
+            ("uniform buffers of pipeline \"p\"", 2, |limits| &mut limits.max_pipeline_uniform_buffers),
+            ("storage buffers in the vertex stage of pipeline \"p\"", 3, |limits| {
+                &mut limits.max_stage_storage_buffers
+            }),
+            ("uniform buffers in the fragment stage of pipeline \"p\"", 2, |limits| {
+                &mut limits.max_stage_uniform_buffers
+            }),
+            ("resources in the fragment stage of pipeline \"p\"", 5, |limits| &mut limits.max_stage_resources),
+        ];
+        for (expected, used, field) in cases {
+            let mut limits = roomy();
+            *field(&mut limits) = used;
+            interface.check("p", &limits).unwrap();
+            *field(&mut limits) = used - 1;
+            match interface.check("p", &limits).unwrap_err() {
+                GpuError::Limit { what, value, limit } => {
+                    assert_eq!((what.as_str(), value, limit), (expected, used.into(), u64::from(used) - 1));
+                }
+                error => panic!("{error}"),
+            }
+        }
     }
 }

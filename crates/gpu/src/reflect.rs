@@ -19,6 +19,12 @@ pub enum Stage {
     Compute,
 }
 
+impl Stage {
+    /// All stages, in the order of a pipeline; compute last.
+    pub(crate) const ALL: [Self; 5] =
+        [Self::Vertex, Self::TessellationControl, Self::TessellationEvaluation, Self::Fragment, Self::Compute];
+}
+
 impl std::fmt::Display for Stage {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
@@ -60,7 +66,7 @@ pub struct BufferBinding {
     pub kind: BufferKind,
     /// The shader may read it: it is not `writeonly`.
     pub reads: bool,
-    /// The shader may write it: it is not `readonly`.
+    /// The shader may write it: it is not `readonly`. Compute only.
     pub writes: bool,
     /// Name of the block.
     pub name: String,
@@ -147,6 +153,20 @@ pub enum ReflectError {
     Stage {
         /// The stage, in SPIR-V's words.
         stage: String,
+    },
+    /// The module needs a feature that [`Device`](crate::Device) never switches on.
+    #[error("capability {capability} is not supported: write the shader without what needs it")]
+    Capability {
+        /// The capability, in SPIR-V's words.
+        capability: String,
+    },
+    /// A graphics stage may write a buffer.
+    #[error("{name:?} can be written, which only compute shaders may do: declare it readonly in this {stage} shader")]
+    Write {
+        /// Name of the buffer.
+        name: String,
+        /// The stage.
+        stage: Stage,
     },
     /// A resource is not in descriptor set 0.
     #[error("{name:?} is in descriptor set {set}, only set 0 is supported")]

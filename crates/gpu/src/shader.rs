@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use crate::{Device, GpuError, Reflection, Stage, owned::Owned, reflect};
+use crate::{Device, GpuError, Reflection, Stage, info::TRANSFORM_FEEDBACK, owned::Owned, reflect};
 
 /// A compiled shader with one entry point. Clones share it.
 #[derive(Clone)]
@@ -24,9 +24,13 @@ impl Device {
     ///
     /// The module must be valid SPIR-V, as a compiler makes it: it is reflected, but not validated, and drivers trust it as they
     /// trust their own code. Do not pass modules from untrusted sources.
+    ///
+    /// Fails if the module needs what is never switched on: only compute shaders write buffers, and SPIR-V's capabilities beyond
+    /// `Shader`, `DerivativeControl`, `Tessellation` and `TransformFeedback` (64-bit numbers, `gl_PrimitiveID` in
+    /// fragment shaders, clip distances, subgroups and so on) are refused.
     pub fn shader(&self, name: &str, spirv: &[u32]) -> Result<Shader, GpuError> {
         let reflection = reflect(spirv).map_err(|source| GpuError::Shader { shader: name.to_owned(), source })?;
-        self.check_features(name, &reflection)?;
+        self.check_capture(name, &reflection)?;
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
         // SAFETY: the code is a whole number of words and was parsed; its validity is documented as the caller's part.
         let raw = unsafe { self.raw().create_shader_module(&info, None) }
@@ -35,22 +39,16 @@ impl Device {
         Ok(Shader { inner: Arc::new(Inner { raw, name: name.to_owned(), reflection, device: self.clone() }) })
     }
 
-    /// Whether the device has the optional features that the shader's declarations need.
-    fn check_features(&self, name: &str, reflection: &Reflection) -> Result<(), GpuError> {
-        let has = self.info().features;
-        let writes = reflection.buffers.iter().any(|buffer| buffer.writes);
-        let what = || format!("shader {name:?}");
-        match reflection.stage {
-            Stage::Compute => {}
-            Stage::Fragment if writes && !has.fragment_stores => {
-                return Err(self.missing(what(), "fragmentStoresAndAtomics"));
-            }
-            Stage::Fragment => {}
-            _ if writes && !has.vertex_stores => return Err(self.missing(what(), "vertexPipelineStoresAndAtomics")),
-            _ => {}
+    /// Fails unless the device can capture what the shader declares for capture, if anything.
+    fn check_capture(&self, name: &str, reflection: &Reflection) -> Result<(), GpuError> {
+        let Some(stride) = reflection.capture_stride else { return Ok(()) };
+        if !self.info().features.transform_feedback {
+            return Err(self.missing(format!("shader {name:?}"), TRANSFORM_FEEDBACK));
         }
-        if reflection.capture_stride.is_some() && !has.transform_feedback {
-            return Err(self.missing(what(), "VK_EXT_transform_feedback"));
+        let limit = self.info().limits.max_capture_stride;
+        if stride > limit {
+            let what = format!("bytes per vertex that shader {name:?} captures");
+            return Err(GpuError::Limit { what, value: stride.into(), limit: limit.into() });
         }
         Ok(())
     }

@@ -1,11 +1,19 @@
 //! Handing recordings to the GPU, and waiting for them.
+//!
+//! # Locks
+//! Two kinds of locks are held for long. A buffer's lock is held while the host touches its content, waiting for the GPU
+//! included, and by a submission that uses the buffer from before the GPU can start until its timeline value is noted: so the
+//! host never misses work that is on its way. The queue's lock makes submissions one sequence. They are taken in one order:
+//! first buffers, ascending by id, then the queue. The host's side takes one buffer and nothing else; the GPU needs no lock
+//! to get on. Hence nobody waits in a circle, and no thread that waits for the GPU holds the queue. The other locks
+//! (allocator, pipeline cache, messages) are innermost: under them no buffer and no queue is locked.
 
-use std::collections::HashMap;
+use std::{collections::HashMap, sync::MutexGuard};
 
 use ash::vk;
 
 use crate::{
-    Device, GpuError, Recording, Report,
+    Buffer, Device, GpuError, Recording, Report,
     barrier::derive,
     device::Queue,
     execute::Encoder,
@@ -37,20 +45,27 @@ impl Device {
     pub fn submit(&self, recording: &Recording) -> Result<Submission, GpuError> {
         let plan = Plan::new(self, recording)?;
         let queries = Queries::new(self, recording)?;
-        // From here to the end the queue is locked: layouts are read, used and updated in the order of submissions.
+        let (commands, timeline_value) = self.hand_over(&plan, &queries)?;
+        Ok(Submission { device: self.clone(), timeline_value, queries, commands: Some(commands), _kept: plan.kept })
+    }
+
+    /// Hands a plan to the GPU; its commands, and the value that the timeline reaches when they are done.
+    fn hand_over(&self, plan: &Plan<'_>, queries: &Queries) -> Result<(Commands, u64), GpuError> {
+        // From here to the end the buffers and the queue are locked: the host keeps off the buffers, and layouts are read,
+        // used and updated in the order of submissions.
+        let mut last_uses = lock_in_order(plan.kept.buffers.values());
         let mut queue = self.queue();
         let layouts: HashMap<ResourceId, _> =
             plan.kept.images.iter().map(|(id, image)| (*id, image.layout())).collect();
         let (barriers, layouts) = derive(plan.steps.iter().map(|step| step.uses.as_slice()), &layouts);
         let commands = self.begin(&mut queue)?;
         // SAFETY: `begin` put the command buffer of this device into the recording state, nobody else has it, and the
-        // submission keeps `kept` and `queries` until the commands have run.
-        unsafe { Encoder::new(self, commands.buffer, &plan.kept, &queries) }.encode(&plan.steps, &barriers);
+        // submission that our caller makes keeps `kept` and `queries` until the commands have run.
+        unsafe { Encoder::new(self, commands.buffer, &plan.kept, queries) }.encode(&plan.steps, &barriers);
         let timeline_value = self.end_and_submit(&mut queue, &commands)?;
-        plan.kept.buffers.values().for_each(|buffer| buffer.used_by(timeline_value));
+        last_uses.iter_mut().for_each(|last_use| **last_use = timeline_value);
         plan.kept.images.iter().for_each(|(id, image)| image.set_layout(layouts[id]));
-        let (device, commands) = (self.clone(), Some(commands));
-        Ok(Submission { device, timeline_value, queries, commands, _kept: plan.kept })
+        Ok((commands, timeline_value))
     }
 
     /// Submits and waits: for tests and one-off work.
@@ -110,6 +125,13 @@ impl Device {
     }
 }
 
+/// Locks all buffers, each of which occurs once, in the order that all submissions keep.
+fn lock_in_order<'a>(buffers: impl Iterator<Item = &'a Buffer>) -> Vec<MutexGuard<'a, u64>> {
+    let mut buffers: Vec<&Buffer> = buffers.collect();
+    buffers.sort_unstable_by_key(|buffer| buffer.id());
+    buffers.into_iter().map(Buffer::lock).collect()
+}
+
 impl Submission {
     /// Waits for the end and reads what was measured. Fails if a capture did not fit its buffer.
     pub fn wait(mut self) -> Result<Report, GpuError> {
@@ -148,5 +170,39 @@ impl Drop for Submission {
 impl std::fmt::Debug for Submission {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_struct("Submission").field("timeline_value", &self.timeline_value).finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{BufferUsage, DeviceDesc, barrier::Barriers};
+
+    /// What validation says of two copies, the second of which reads what the first writes, behind the given barriers.
+    fn messages(barriers: impl Fn(&Plan<'_>) -> Vec<Barriers>) -> Vec<String> {
+        let select = std::env::var("OSCULATE_DEVICE").ok();
+        let device = Device::new(&DeviceDesc { select, validation: true, ..DeviceDesc::default() }).unwrap();
+        let buffers = ["a", "b", "c"].map(|name| device.upload(name, BufferUsage::empty(), &[0u32; 4]).unwrap());
+        let mut recording = Recording::new();
+        buffers.windows(2).for_each(|pair| recording.copy_buffer(&pair[0], 0..16, &pair[1], 0));
+        let plan = Plan::new(&device, &recording).unwrap();
+        let queries = Queries::new(&device, &recording).unwrap();
+        let mut queue = device.queue();
+        let commands = device.begin(&mut queue).unwrap();
+        // SAFETY: as in `hand_over`; `plan` and `queries` live until the device is idle.
+        unsafe { Encoder::new(&device, commands.buffer, &plan.kept, &queries) }.encode(&plan.steps, &barriers(&plan));
+        device.end_and_submit(&mut queue, &commands).unwrap();
+        drop(queue);
+        device.wait_idle().unwrap();
+        device.validation_messages()
+    }
+
+    /// All tests on a device would pass without validation too; this one shows that it is on, synchronization included.
+    #[test]
+    fn validation_reports_a_forgotten_barrier() {
+        let derived = |plan: &Plan<'_>| derive(plan.steps.iter().map(|step| step.uses.as_slice()), &HashMap::new()).0;
+        assert_eq!(messages(derived), [""; 0]);
+        let found = messages(|plan| plan.steps.iter().map(|_| Barriers::default()).collect());
+        assert!(found.iter().any(|message| message.contains("SYNC-HAZARD-READ-AFTER-WRITE")), "{found:?}");
     }
 }

@@ -4,13 +4,23 @@ use std::collections::{HashMap, HashSet};
 
 use rspirv::{
     dr::{Instruction, Module, Operand},
-    spirv::{BuiltIn, Decoration, ExecutionMode, ExecutionModel, Op, StorageClass, Word},
+    spirv::{BuiltIn, Capability, Decoration, ExecutionMode, ExecutionModel, Op, StorageClass, Word},
 };
 
 use super::{BufferBinding, BufferKind, Extent, ReflectError, Reflection, SpecConstant, Stage};
 
 /// Deepest nesting of types that is followed; a malformed module may nest a type in itself.
 const MAX_DEPTH: u32 = 32;
+
+/// What a module may need: capabilities that every Vulkan device has, and those whose features are switched on.
+const CAPABILITIES: [Capability; 5] = [
+    Capability::Matrix,
+    Capability::Shader,
+    Capability::DerivativeControl,
+    Capability::Tessellation,
+    // Refused with the device's name by `Device::shader`, where the device lacks it.
+    Capability::TransformFeedback,
+];
 
 /// One decoration of an id or of a member of a structure.
 struct Decorated {
@@ -51,16 +61,32 @@ impl<'a> Reader<'a> {
             [Operand::ExecutionModel(model), _, Operand::LiteralString(name), ..] => (stage(*model)?, name.clone()),
             _ => return Err(malformed("the entry point has no name")),
         };
+        self.check_capabilities()?;
+        let buffers = self.buffers()?;
+        if let Some(buffer) = buffers.iter().find(|buffer| buffer.writes && stage != Stage::Compute) {
+            return Err(ReflectError::Write { name: buffer.name.clone(), stage });
+        }
         Ok(Reflection {
             stage,
             entry_point,
-            buffers: self.buffers()?,
+            buffers,
             push_constant_size: self.push_constant_size()?,
             specialization: self.specialization(),
             local_size: if stage == Stage::Compute { Some(self.local_size()?) } else { None },
             output_vertices: if stage == Stage::TessellationControl { self.output_vertices() } else { None },
             capture_stride: self.capture_stride(),
         })
+    }
+
+    fn check_capabilities(&self) -> Result<(), ReflectError> {
+        let declared = self.module.capabilities.iter().filter_map(|one| match one.operands.as_slice() {
+            [Operand::Capability(capability)] => Some(capability),
+            _ => None,
+        });
+        match declared.into_iter().find(|capability| !CAPABILITIES.contains(capability)) {
+            None => Ok(()),
+            Some(capability) => Err(ReflectError::Capability { capability: format!("{capability:?}") }),
+        }
     }
 
     /// Global variables that some function refers to, with storage class and the type they point to.

@@ -217,24 +217,3 @@ fn a_submission_keeps_what_it_uses() {
         assert!(readback.read::<f32>(..).unwrap().iter().all(|&value| value == 2.0));
     });
 }
-
-#[test]
-fn threads_may_share_a_device() {
-    with_device(|device| {
-        let double = compute_pipeline(device, "double.comp", DOUBLE);
-        std::thread::scope(|scope| {
-            for thread in 0..4 {
-                let double = &double;
-                scope.spawn(move || {
-                    let values = device.upload("values", BufferUsage::STORAGE, &[thread as f32; 256]).unwrap();
-                    let mut recording = Recording::new();
-                    recording.compute(compute_pass(double, bind(&[&values]), 256));
-                    for _ in 0..10 {
-                        device.run(&recording).unwrap();
-                    }
-                    assert_eq!(device.download::<f32>(&values, ..).unwrap(), [1024.0 * thread as f32; 256]);
-                });
-            }
-        });
-    });
-}

@@ -9,4 +9,5 @@ mod harness;
 mod reflection;
 mod refusals;
 mod render;
+mod threads;
 mod timing;

@@ -6,7 +6,7 @@ use osculate_gpu::{
     Recording, RenderPass, Topology, Vertices,
 };
 
-use crate::harness::{bind, compute_pass, compute_pipeline, open, shader, target, with_device};
+use crate::harness::{bind, compute_pass, compute_pipeline, open, shader, spirv, target, with_device};
 
 const COPY: &str = "
 layout(push_constant) uniform Push { uint count; };
@@ -145,6 +145,97 @@ fn shaders_in_the_wrong_place_are_refused() {
         let desc = GraphicsPipelineDesc { fragment, ..GraphicsPipelineDesc::new("p", &vertex) };
         assert!(matches!(device.graphics_pipeline(&desc), Err(GpuError::WrongStage { .. })));
         assert!(matches!(device.shader("no", &[1, 2, 3]), Err(GpuError::Shader { .. })));
+    });
+}
+
+#[test]
+fn shaders_that_need_what_is_not_switched_on_are_refused() {
+    with_device(|device| {
+        let color = "layout(location = 0) out vec4 c;";
+        let double = "layout(binding = 0) buffer B { float x; }; void main() { x = float(double(x) * 2.0lf); }";
+        let long = "#extension GL_EXT_shader_explicit_arithmetic_types_int64 : require
+             layout(binding = 0) buffer B { uint x; }; void main() { x = uint(uint64_t(x) >> 3); }";
+        let primitive = format!("{color} void main() {{ c = vec4(gl_PrimitiveID); }}");
+        let sample = format!("{color} void main() {{ c = vec4(gl_SampleID); }}");
+        let clip = "out float gl_ClipDistance[1]; void main() { gl_ClipDistance[0] = 1.0; }";
+        let writes = "layout(binding = 0) buffer Words { float word; };";
+        let from_vertex = format!("{writes} void main() {{ word = 1.0; }}");
+        let from_fragment = format!("{writes} {color} void main() {{ c = vec4(word); }}");
+        for (name, source, parts) in [
+            ("double.comp", double, ["capability Float64", "without"]),
+            ("long.comp", long, ["capability Int64", "without"]),
+            ("primitive.frag", &primitive, ["capability Geometry", "without"]),
+            ("sample.frag", &sample, ["capability SampleRateShading", "without"]),
+            ("clip.vert", clip, ["capability ClipDistance", "without"]),
+            ("writes.vert", &from_vertex, ["\"Words\" can be written", "readonly in this vertex shader"]),
+            ("reads.frag", &from_fragment, ["\"Words\" can be written", "readonly in this fragment shader"]),
+        ] {
+            let error = device.shader(name, &spirv(name, source)).unwrap_err().to_string();
+            assert!(error.contains(name) && parts.iter().all(|part| error.contains(part)), "{error}");
+        }
+    });
+}
+
+/// A compute shader that reads `count` buffers of a kind, from the second binding on, and writes the first.
+fn sum_of(kind: &str, count: u32) -> String {
+    let declare = |i| format!("layout(binding = {i}) {kind} B{i} {{ float b{i}; }};");
+    let add = |i| format!("sum += b{i};");
+    let (declarations, additions): (String, String) = (1..=count).map(|i| (declare(i), add(i))).unzip();
+    format!("layout(binding = 0) buffer Sum {{ float sum; }}; {declarations} void main() {{ {additions} }}")
+}
+
+#[test]
+fn pipelines_bind_as_many_buffers_as_the_device_takes() {
+    with_device(|device| {
+        let limits = &device.info().limits;
+        let all = limits.max_push_descriptors.min(limits.max_stage_resources);
+        let storage = all.min(limits.max_stage_storage_buffers).min(limits.max_pipeline_storage_buffers);
+        let uniform = (all - 1).min(limits.max_stage_uniform_buffers).min(limits.max_pipeline_uniform_buffers);
+        // The sum is a storage buffer, too.
+        for (kind, most) in [("readonly buffer", storage - 1), ("uniform", uniform)] {
+            let make = |count| {
+                let shader = shader(device, "sum.comp", &sum_of(kind, count));
+                device.compute_pipeline(&ComputePipelineDesc { name: "sum", shader: &shader, specialization: &[] })
+            };
+            make(most).unwrap();
+            match make(most + 1).unwrap_err() {
+                GpuError::Limit { what, value, limit } => {
+                    assert!(what.contains("buffers") && what.contains("\"sum\"") && value == limit + 1, "{what}");
+                }
+                error => panic!("{error}"),
+            }
+        }
+    });
+}
+
+/// SPIR-V in which every capture has the given stride. GLSL compilers have limits of their own, so it is put in afterwards.
+fn with_stride(mut words: Vec<u32>, stride: u32) -> Vec<u32> {
+    const OP_DECORATE: u32 = 71;
+    const XFB_STRIDE: u32 = 37;
+    let mut position = 5;
+    while position < words.len() {
+        if words[position] & 0xffff == OP_DECORATE && words[position + 2] == XFB_STRIDE {
+            words[position + 3] = stride;
+        }
+        position += (words[position] >> 16) as usize;
+    }
+    words
+}
+
+#[test]
+fn captures_wider_than_the_device_takes_are_refused() {
+    with_device(|device| {
+        let source = "layout(location = 0, xfb_buffer = 0, xfb_offset = 0, xfb_stride = 4) out float x;
+             void main() { x = 1.0; }";
+        let make = |stride| device.shader("wide.vert", &with_stride(spirv("wide.vert", source), stride));
+        let most = device.info().limits.max_capture_stride / 4 * 4;
+        let widest = make(most).unwrap();
+        let plain = GraphicsPipelineDesc::new("widest", &widest);
+        let pipeline = device.graphics_pipeline(&GraphicsPipelineDesc { rasterizer_discard: true, ..plain }).unwrap();
+        assert_eq!(pipeline.capture_stride(), Some(most));
+        let error = make(most + 4).unwrap_err().to_string();
+        let wanted = format!("bytes per vertex that shader \"wide.vert\" captures: {} exceeds", most + 4);
+        assert!(error.contains(&wanted), "{error}");
     });
 }
 

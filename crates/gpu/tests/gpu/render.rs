@@ -6,7 +6,7 @@ use osculate_gpu::{
     Vertices,
 };
 
-use crate::harness::{bind, open, shader, target, with_device};
+use crate::harness::{shader, target, with_device};
 
 /// A triangle that covers the left half of the picture: its long side runs down the middle.
 const TRIANGLE: &str = "
@@ -254,32 +254,4 @@ fn a_tessellated_quad_fills_its_square_solid_and_as_wires() {
             assert!(matches!(wires, Err(GpuError::MissingFeature { .. })));
         }
     });
-}
-
-/// The other tests would pass without validation too; this one shows that it is on, synchronization included: one draw reads
-/// what another of the same pass writes, a race that the crate documents as the caller's.
-#[test]
-fn validation_reports_a_race() {
-    let device = open(true);
-    let image = target(&device, "picture", Format::Rgba8Unorm, 1);
-    let word = device.upload("word", BufferUsage::STORAGE, &[0.0f32]).unwrap();
-    let fragment = shader(&device, "flat.frag", "layout(location = 0) out vec4 c; void main() { c = vec4(1.0); }");
-    let draw = |name: &str, source: &str| {
-        let vertex = shader(&device, name, source);
-        let mut desc = GraphicsPipelineDesc::new(name, &vertex);
-        desc.fragment = Some(&fragment);
-        desc.color_format = Some(Format::Rgba8Unorm);
-        let pipeline = device.graphics_pipeline(&desc).unwrap();
-        Draw { pipeline, bindings: bind(&[&word]), push: vec![], vertices: (0..3).into(), instances: 0..1 }
-    };
-    let writes = "layout(binding = 0) writeonly buffer Word { float word; };
-         void main() { word = 1.0; gl_Position = vec4(0.0); }";
-    let reads = "layout(binding = 0) readonly buffer Word { float word; };
-         void main() { gl_Position = vec4(word); }";
-    let draws = vec![draw("writes.vert", writes), draw("reads.vert", reads)];
-    let mut recording = Recording::new();
-    recording.render(pass(cleared(&image, None), None, draws));
-    device.run(&recording).unwrap();
-    let messages = device.validation_messages();
-    assert!(messages.iter().any(|message| message.contains("SYNC-HAZARD-READ-AFTER-WRITE")), "{messages:?}");
 }
