@@ -9,6 +9,7 @@
 // Floats of a record in its buffer.
 #define POINT_FLOATS 3
 #define VERTEX_RECORD_FLOATS 6
+#define EDGE_RECORD_POINTS 8
 #define EDGE_RECORD_FLOATS 24
 #define GREGORY_POINTS 20
 #define SAMPLE_FLOATS 12

@@ -17,7 +17,7 @@ void write_patch() {
     if (gl_InvocationID == 0) {
         uint id = net_patch[0];
         patch_id = id;
-        WRITE_FACTORS(id)
+        write_factors(id);
     }
 }
 

@@ -10,6 +10,8 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
     mat4 view_from_cage;
     // Eye in cage space; w unused.
     vec4 eye;
+    // Eye that adaptive factors are chosen for, in cage space; w unused.
+    vec4 factor_eye;
     // Uniform tessellation factor of a patch edge.
     float level;
     // Adaptive factors: segments of an edge of unit length at unit distance.

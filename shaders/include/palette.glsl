@@ -42,14 +42,16 @@ vec3 shade_patch_color(uint tag) {
         uint corner = valence == 2u ? 0x3f74b5u : 0x8fb8dau;
         return shade_srgb(boundary ? corner : 0xe4e1dau);
     }
-    float more = clamp((float(valence) - 5.0) / 8.0, 0.0, 1.0);
+    // 5 to 13 and beyond, the lower ones further apart.
+    float more = sqrt(clamp((float(valence) - 5.0) / 8.0, 0.0, 1.0));
     if (boundary) {
         return valence < 4u ? shade_srgb(0x56b870) : mix(shade_srgb(0xc98bd8), shade_srgb(0x5a2a82), more);
     }
     if (valence < 4u) {
         return shade_srgb(valence == 2u ? 0xb9d63a : 0xf9e36a);
     }
-    return mix(shade_srgb(0xf6b53c), shade_srgb(0x9e1f1f), sqrt(more));
+    vec3 middle = shade_srgb(0xe2622a);
+    return more < 0.5 ? mix(shade_srgb(0xf6b53c), middle, 2.0 * more) : mix(middle, shade_srgb(0x7d1420), 2.0 * more - 1.0);
 }
 
 #endif

@@ -12,5 +12,5 @@ layout(location = 1) patch out uint patch_id;
 void main() {
     uint id = net_patch[0];
     patch_id = id;
-    WRITE_FACTORS(id)
+    write_factors(id);
 }

@@ -9,8 +9,8 @@
 
 void main() {
     uint thread = thread_index();
-    uint record = thread >> 3u;
-    uint row = thread & 7u;
+    uint record = thread / EDGE_RECORD_POINTS;
+    uint row = thread % EDGE_RECORD_POINTS;
     if (record >= kernel.count) {
         return;
     }

@@ -16,7 +16,7 @@ layout(location = 0) out vec4 color;
 
 // Outside and inside of the surface: only open surfaces show the inside.
 const vec3 PORCELAIN = vec3(0.640, 0.605, 0.560);
-const vec3 INSIDE = vec3(0.330, 0.420, 0.500);
+const vec3 INSIDE = vec3(0.400, 0.500, 0.590);
 
 vec3 shade_view(vec3 a) {
     return mat3(frame.view_from_cage) * a;
@@ -54,7 +54,7 @@ float shade_square_wave(float x, float width) {
 // A room striped by height and a little by side, mirrored in the surface: breaks of the tangent plane break stripes, breaks of curvature kink them.
 vec3 shade_zebra(vec3 n, vec3 v) {
     vec3 r = reflect(-v, n);
-    float phase = 2.6 * r.y + 0.9 * r.x;
+    float phase = 2.1 * r.y + 0.7 * r.x;
     float stripe = shade_square_wave(phase, max(fwidth(phase), 1e-4));
     vec3 rgb = mix(vec3(0.012, 0.014, 0.018), vec3(0.86, 0.86, 0.84), stripe);
     float grazing = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 4.0);

@@ -3,13 +3,17 @@
 //! Tests that draw take [`gpu()`], whose guard fails the test if validation said anything. Tests that compare with data from elsewhere take
 //! [`reference_folder`] and are ignored by default.
 
+pub mod legend;
 pub mod mutation;
+pub mod picture;
 pub mod zoo;
 
 use std::path::PathBuf;
 use std::sync::OnceLock;
 
-use osculate::{Device, DeviceDesc, Engine, ShaderSet};
+use osculate::{
+    BoundaryRule, Cage, Device, DeviceDesc, Engine, EngineDesc, EngineError, PlanError, ShaderSet, Surface, SurfaceDesc,
+};
 
 /// The engine that tests share, so that pipelines are compiled once; checks validation when dropped.
 pub struct Gpu {
@@ -27,8 +31,28 @@ pub fn gpu() -> Gpu {
 
 /// An engine of its own on the shared device, with changed shaders.
 pub fn gpu_with_shaders(shaders: ShaderSet) -> Gpu {
-    Gpu { engine: Engine::with_shaders(gpu().engine.device().clone(), shaders) }
+    gpu_with(EngineDesc { shaders, ..EngineDesc::default() })
 }
+
+/// An engine of its own on the shared device.
+pub fn gpu_with(desc: EngineDesc) -> Gpu {
+    Gpu { engine: Engine::with(gpu().engine.device().clone(), desc) }
+}
+
+/// The surface of a cage under a boundary rule, or none if the rule leaves nothing to draw.
+///
+/// # Panics
+/// If it cannot be made.
+pub fn surface(engine: &Engine, cage: &Cage, boundary: Option<BoundaryRule>) -> Option<Surface> {
+    match Surface::new(engine, cage, &SurfaceDesc { boundary, ..SurfaceDesc::default() }) {
+        Ok(surface) => Some(surface),
+        Err(EngineError::Plan(PlanError::NothingToDraw { .. })) => None,
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// All boundary rules.
+pub const RULES: [BoundaryRule; 3] = [BoundaryRule::EdgeAndCorner, BoundaryRule::EdgeOnly, BoundaryRule::None];
 
 fn device() -> Device {
     let desc = DeviceDesc {

@@ -72,9 +72,9 @@ impl Camera {
 
     /// View space from cage space.
     pub(crate) fn view(&self, space: &CageSpace) -> DMat4 {
-        let direction = (self.at - self.eye).normalize();
-        let up = if direction.cross(self.up).length() > 0.0 { self.up } else { DVec3::X };
-        rh::view::look_to_mat4(space.enter_exactly(self.eye), direction, up)
+        // In cage space, where lengths are near one whatever the size of the cage.
+        let (eye, at) = (space.enter_exactly(self.eye), space.enter_exactly(self.at));
+        rh::view::look_to_mat4(eye, (at - eye).normalize(), self.up.normalize())
     }
 
     /// Clip space from cage space: y down, depth 0 to 1, as Vulkan has it.

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use osculate_gpu::{BufferDesc, BufferUsage, CapturePass, Memory, Recording};
 use osculate_shaders::binding;
 
-use crate::draw::{Output, patches_per_draw, runs};
+use crate::draw::{Output, runs};
 use crate::frame::FrameDesc;
 use crate::{EngineError, Shade, Surface, Tessellation};
 
@@ -59,7 +59,7 @@ impl Surface {
         let (usage, memory) = (BufferUsage::CAPTURE, Memory::Readback);
         let desc = BufferDesc { name: "captured triangles", size, usage, memory };
         let buffer = device.buffer(&desc).map_err(EngineError::from)?;
-        let longest = patches_per_draw(self.engine(), segments).min((size / patch_bytes(segments)) as u32);
+        let longest = self.engine().patches_per_draw(segments).min((size / patch_bytes(segments)) as u32);
         let mut runs = runs(&self.plan().lists, longest).peekable();
         while runs.peek().is_some() {
             let (mut draws, mut room) = (Vec::new(), size);

@@ -20,14 +20,16 @@ pub struct CheckReport {
     pub open: u64,
     /// Triangle edges that more than two triangles share, or two with the same direction.
     pub over_shared: u64,
-    /// Keys whose vertices differ in position.
+    /// Vertices whose position differs from that of the first vertex of their key.
     pub split_positions: u64,
-    /// Keys whose vertices differ in normal.
+    /// Vertices whose normal differs from that of the first vertex of their key.
     pub split_normals: u64,
     /// Triangles that run clockwise in their patch.
     pub inverted: u64,
     /// Triangles without area in their patch: no error.
     pub degenerate: u64,
+    /// Patches that were not drawn, drawn twice, or are none of the surface's: a defect of the driver.
+    pub wrong_patches: u64,
     /// The same question asked of positions alone.
     pub weld: WeldReport,
 }
@@ -45,7 +47,11 @@ pub struct WeldReport {
 impl CheckReport {
     /// Whether the surface has no cracks and no wrong triangles.
     pub fn is_watertight(&self) -> bool {
-        self.open == 0 && self.over_shared == 0 && self.split_normals == 0 && self.inverted == 0
+        self.open == 0
+            && self.over_shared == 0
+            && self.split_normals == 0
+            && self.inverted == 0
+            && self.wrong_patches == 0
     }
 }
 
@@ -55,8 +61,11 @@ impl CheckReport {
 /// As [`Surface::capture`].
 pub fn check(surface: &Surface, tessellation: &Tessellation) -> Result<CheckReport, EngineError> {
     let mut proof = Proof::new(surface.plan());
-    surface.capture(tessellation, |vertices| proof.add(vertices))?;
-    proof.finish()
+    surface.capture(tessellation, |vertices| {
+        proof.add(vertices);
+        Ok::<(), EngineError>(())
+    })?;
+    Ok(proof.finish())
 }
 
 /// Bits of a position or a normal.
@@ -72,7 +81,7 @@ type BorderEdge = (u32, u32, u32);
 struct Proof<'a> {
     plan: &'a SurfacePlan,
     report: CheckReport,
-    /// First position and normal seen of each shared key, and whether another differed.
+    /// First position and normal seen of each shared key.
     shared: HashMap<VertexKey, (Bits, Bits)>,
     border: HashMap<BorderEdge, u32>,
     /// Directed edges between positions, and whether the edge lies on the boundary of the surface.
@@ -93,21 +102,16 @@ impl<'a> Proof<'a> {
     }
 
     /// Takes whole patches.
-    fn add(&mut self, vertices: &[CapturedVertex]) -> Result<(), EngineError> {
+    fn add(&mut self, vertices: &[CapturedVertex]) {
         for patch in vertices.chunk_by(|a, b| a.patch == b.patch) {
-            let id = patch[0].patch as usize;
-            let drawn = self.drawn.get_mut(id).ok_or_else(|| {
-                EngineError::Inconsistent(format!(
-                    "a captured vertex names patch {id}, there are {}",
-                    self.plan.patches.len()
-                ))
-            })?;
-            if patch.len() % 3 != 0 || std::mem::replace(drawn, true) {
-                return Err(EngineError::Inconsistent(format!("the triangles of patch {id} do not follow each other")));
+            let drawn = self.drawn.get_mut(patch[0].patch as usize);
+            let first_time = drawn.is_some_and(|drawn| !std::mem::replace(drawn, true));
+            if first_time && patch.len() % 3 == 0 {
+                self.add_patch(patch);
+            } else {
+                self.report.wrong_patches += 1;
             }
-            self.add_patch(patch);
         }
-        Ok(())
     }
 
     fn add_patch(&mut self, vertices: &[CapturedVertex]) {
@@ -186,10 +190,8 @@ impl<'a> Proof<'a> {
         welded.1 |= boundary;
     }
 
-    fn finish(mut self) -> Result<CheckReport, EngineError> {
-        if let Some(patch) = self.drawn.iter().position(|&drawn| !drawn) {
-            return Err(EngineError::Inconsistent(format!("patch {patch} was not drawn")));
-        }
+    fn finish(mut self) -> CheckReport {
+        self.report.wrong_patches += self.drawn.iter().filter(|&&drawn| !drawn).count() as u64;
         for (&(edge, a, b), &count) in &self.border {
             self.report.over_shared += u64::from(count - 1);
             let partner = self.border.contains_key(&(edge, b, a));
@@ -205,7 +207,7 @@ impl<'a> Proof<'a> {
             self.report.weld.open += u64::from(back == 0 && !boundary);
         }
         self.report.open += self.report.split_positions;
-        Ok(self.report)
+        self.report
     }
 }
 

@@ -140,14 +140,6 @@ fn make_cage(engine: &Engine, target: Target, hidden: bool) -> Result<GraphicsPi
     Ok(engine.device().graphics_pipeline(&desc)?)
 }
 
-/// Most patches of one draw.
-///
-/// llvmpipe numbers the tessellated vertices of a draw with 16 bits and garbles the triangles beyond 65 535 without a word; a patch makes at most
-/// (segments + 2)^2 of them.
-pub(crate) fn patches_per_draw(engine: &Engine, segments: u32) -> u32 {
-    if engine.device().info().is_llvmpipe { (65_535 / ((segments + 2) * (segments + 2))).max(1) } else { u32::MAX / 64 }
-}
-
 /// Consecutive patches of a list.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Run<'a> {

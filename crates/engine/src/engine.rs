@@ -15,9 +15,18 @@ pub struct Engine {
     inner: Arc<Inner>,
 }
 
+/// What an engine can be made with.
+#[derive(Clone, Debug, Default)]
+pub struct EngineDesc {
+    /// The shaders: others than the embedded ones for reloading them, and for tests of changed ones.
+    pub shaders: ShaderSet,
+    /// Most patches of one draw; `None` takes what the driver is known to draw right.
+    pub patches_per_draw: Option<u32>,
+}
+
 struct Inner {
     device: Device,
-    shaders: ShaderSet,
+    desc: EngineDesc,
     modules: Mutex<HashMap<String, Shader>>,
     kernels: Mutex<HashMap<&'static str, ComputePipeline>>,
     pipelines: Mutex<HashMap<PipelineKey, GraphicsPipeline>>,
@@ -40,18 +49,13 @@ fn get_or_make<K: std::hash::Hash + Eq, V: Clone>(
 impl Engine {
     /// An engine with the embedded shaders.
     pub fn new(device: Device) -> Self {
-        Self::with_shaders(device, ShaderSet::embedded())
+        Self::with(device, EngineDesc::default())
     }
 
-    /// An engine with other shaders: for reloading them, and for tests of changed ones.
-    pub fn with_shaders(device: Device, shaders: ShaderSet) -> Self {
-        let inner = Inner {
-            device,
-            shaders,
-            modules: Mutex::default(),
-            kernels: Mutex::default(),
-            pipelines: Mutex::default(),
-        };
+    /// An engine with other shaders or limits.
+    pub fn with(device: Device, desc: EngineDesc) -> Self {
+        let inner =
+            Inner { device, desc, modules: Mutex::default(), kernels: Mutex::default(), pipelines: Mutex::default() };
         Self { inner: Arc::new(inner) }
     }
 
@@ -60,11 +64,22 @@ impl Engine {
         &self.inner.device
     }
 
+    /// Most patches of one draw with so many segments along an edge.
+    ///
+    /// llvmpipe numbers the tessellated vertices of a draw with 16 bits and garbles the triangles beyond 65 535 without a word; a patch makes at most
+    /// (segments + 2)^2 of them.
+    pub(crate) fn patches_per_draw(&self, segments: u32) -> u32 {
+        // Nets have at most 32 points, and a draw at most 2^32 vertices.
+        let any = u32::MAX / 32;
+        let known = if self.device().info().is_llvmpipe { 65_535 / ((segments + 2) * (segments + 2)) } else { any };
+        self.inner.desc.patches_per_draw.unwrap_or(known).clamp(1, any)
+    }
+
     /// The shader module of that name.
     pub(crate) fn shader(&self, name: &str) -> Result<Shader, EngineError> {
         get_or_make(&self.inner.modules, name.to_owned(), || {
             let missing = || EngineError::MissingShader { name: name.to_owned() };
-            let words = self.inner.shaders.get(name).ok_or_else(missing)?;
+            let words = self.inner.desc.shaders.get(name).ok_or_else(missing)?;
             Ok(self.inner.device.shader(name, words)?)
         })
     }

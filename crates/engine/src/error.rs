@@ -41,6 +41,12 @@ pub enum EngineError {
         /// Points given.
         found: usize,
     },
+    /// A new point is not a number or infinite.
+    #[error("the new point of vertex {vertex} is not finite")]
+    NotFinite {
+        /// The vertex.
+        vertex: usize,
+    },
     /// A point that was asked for is not on the surface.
     #[error("there is no point (face {face}, sub {sub}, s {s}, t {t}): {reason}")]
     NoSuchPoint {
@@ -71,7 +77,4 @@ pub enum EngineError {
         /// What to do instead.
         hint: String,
     },
-    /// Work of the engine was inconsistent with itself: a defect of the driver or of this library.
-    #[error("{0}")]
-    Inconsistent(String),
 }

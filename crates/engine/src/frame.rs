@@ -40,6 +40,7 @@ impl FrameDesc<'_> {
             clip_from_cage: columns(clip),
             view_from_cage: columns(view),
             eye: self.view.map_or([0.0; 4], |(camera, _)| self.eye(camera)),
+            factor_eye: [0.0; 4],
             level: 1.0,
             segments_per_length: 0.0,
             factor_mode: constant::FACTORS_UNIFORM,
@@ -55,8 +56,7 @@ impl FrameDesc<'_> {
                 frame.factor_mode = constant::FACTORS_ADAPTIVE;
                 frame.segments_per_length = (camera.pixels_per_length(*height) / f64::from(*pixels)) as f32;
                 frame.near = (camera.near * self.space.scale) as f32;
-                // The factors' eye is the frame's; a frozen tessellation camera would need its own.
-                frame.eye = self.eye(camera);
+                frame.factor_eye = self.eye(camera);
             }
         }
         frame

@@ -36,7 +36,7 @@ mod tessellation;
 pub use camera::{Camera, CameraError};
 pub use capture::CapturedVertex;
 pub use check::{CheckReport, WeldReport, check};
-pub use engine::Engine;
+pub use engine::{Engine, EngineDesc};
 pub use error::EngineError;
 pub use keys::VertexKey;
 pub use osculate_cage::{BoundaryRule, Cage};

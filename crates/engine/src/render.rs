@@ -8,7 +8,7 @@ use osculate_gpu::{
 use osculate_shaders::{binding, constant};
 
 use crate::alpha::{alpha_multiplied_in, divide_alpha_out};
-use crate::draw::{DEPTH_FORMAT, Output, PipelineKey, Target, patches_per_draw, runs};
+use crate::draw::{DEPTH_FORMAT, Output, PipelineKey, Target, runs};
 use crate::frame::FrameDesc;
 use crate::{Camera, Engine, EngineError, Surface, Tessellation};
 
@@ -102,7 +102,7 @@ const WIRE: [f32; 4] = [0.012, 0.014, 0.020, 0.85];
 /// Edges of the cage, orange.
 const CAGE: [f32; 4] = [0.90, 0.27, 0.035, 1.0];
 /// How much of them shines through the surface.
-const CAGE_BEHIND: f32 = 0.28;
+const CAGE_BEHIND: f32 = 0.18;
 
 impl RenderDesc {
     /// The whole cage from its upper right front, lit, at four samples a pixel.
@@ -173,7 +173,7 @@ fn add_surface(surface: &Surface, desc: &RenderDesc, target: Target, draws: &mut
         line_color,
     };
     let bindings = surface.buffers().patches.clone().with(binding::FRAME, &frame(WIRE).upload(device)?);
-    let longest = patches_per_draw(surface.engine(), desc.tessellation.max_segments()?);
+    let longest = surface.engine().patches_per_draw(desc.tessellation.max_segments()?);
     let outputs = [Some(Output::Fill(target)), wire.then_some(Output::Lines(target))];
     for output in outputs.into_iter().flatten() {
         for run in runs(&surface.plan().lists, longest) {

@@ -17,9 +17,9 @@ impl CageSpace {
     /// The space of a cage with these bounds.
     pub fn new(bounds: Bounds) -> Self {
         let half_diagonal = bounds.half_diagonal();
-        let scale = if half_diagonal > 0.0 { (-half_diagonal.log2().ceil()).exp2() } else { 1.0 };
-        // Boxes near the ends of the range of f64 keep their size rather than overflow.
-        let scale = if scale.is_normal() { scale } else { 1.0 };
+        // Exponents near the ends of the range of f64 stop where the scale and its reciprocal are normal numbers.
+        let exponent = (-half_diagonal.log2().ceil()).clamp(-1000.0, 1000.0);
+        let scale = if half_diagonal > 0.0 { exponent.exp2() } else { 1.0 };
         Self { centre: bounds.center(), scale }
     }
 

@@ -3,7 +3,7 @@
 use glam::DVec3;
 use osculate_cage::{BoundaryRule, Cage};
 use osculate_gpu::Recording;
-use osculate_shaders::constant::GREGORY_POINTS;
+use osculate_shaders::constant::{EDGE_RECORD_POINTS, GREGORY_POINTS};
 use osculate_shaders::layout::KernelPush;
 use osculate_subdiv::{PatchLocation, PlanDesc, SurfacePlan};
 
@@ -42,7 +42,7 @@ impl Surface {
         let topology = cage.topology();
         let edges: Vec<[u32; 2]> =
             topology.edge_half_edges().iter().map(|&h| [topology.origin(h), topology.target(h)]).collect();
-        let surface = Self {
+        let mut surface = Self {
             buffers: SurfaceBuffers::new(engine.device(), &plan, &edges)?,
             engine: engine.clone(),
             plan,
@@ -59,8 +59,8 @@ impl Surface {
     /// the first points.
     ///
     /// # Errors
-    /// If there are not as many points as the cage has, or the device fails.
-    pub fn set_points(&self, points: &[DVec3]) -> Result<(), EngineError> {
+    /// If there are not as many points as the cage has, one of them is not finite, or the device fails.
+    pub fn set_points(&mut self, points: &[DVec3]) -> Result<(), EngineError> {
         self.write_points(points)?;
         let mut recording = Recording::new();
         self.record_update(&mut recording)?;
@@ -68,11 +68,17 @@ impl Surface {
         Ok(())
     }
 
-    /// Puts new points where [`Self::record_update`] takes them from.
-    pub(crate) fn write_points(&self, points: &[DVec3]) -> Result<(), EngineError> {
+    /// Puts new points where [`Self::record_update`] takes them from, once work that still reads the last ones is done.
+    ///
+    /// # Errors
+    /// If there are not as many points as the cage has, or one of them is not finite.
+    pub fn write_points(&mut self, points: &[DVec3]) -> Result<(), EngineError> {
         let expected = (self.buffers.staging.size() / 12) as usize;
         if points.len() != expected {
             return Err(EngineError::PointCount { expected, found: points.len() });
+        }
+        if let Some(vertex) = points.iter().position(|p| !p.is_finite()) {
+            return Err(EngineError::NotFinite { vertex });
         }
         let packed: Vec<[f32; 3]> = points.iter().map(|&p| self.space.enter(p).to_array()).collect();
         self.buffers.staging.write(0, &packed)?;
@@ -89,26 +95,27 @@ impl Surface {
         for level in 0..plan.levels.len() {
             self.record_level(level, recording)?;
         }
-        let count = |n: usize| n as u32;
+        let (vertices, edges) = (&plan.vertex_records, &plan.edge_records);
+        let per_element = |shader, bindings, count: usize, first: u32| (shader, bindings, count as u32, first, 1);
         let kernels = [
-            ("records/phantom.comp", &buffers.phantom, count(plan.reflections.len()), plan.first_phantom, 1),
-            ("records/vertex_regular.comp", &buffers.vertex_regular, count(plan.vertex_records.regular.len()), 0, 1),
-            (
+            per_element("records/phantom.comp", &buffers.phantom, plan.reflections.len(), plan.first_phantom),
+            per_element("records/vertex_regular.comp", &buffers.vertex_regular, vertices.regular.len(), 0),
+            per_element(
                 "records/vertex_general.comp",
                 &buffers.vertex_general,
-                count(plan.vertex_records.general.len()),
-                count(plan.vertex_records.regular.len()),
-                1,
+                vertices.general.len(),
+                vertices.regular.len() as u32,
             ),
-            ("records/edge_regular.comp", &buffers.edge_regular, count(plan.edge_records.regular.len()), 0, 1),
+            per_element("records/edge_regular.comp", &buffers.edge_regular, edges.regular.len(), 0),
+            // One thread for each control point.
             (
                 "records/edge_general.comp",
                 &buffers.edge_general,
-                count(plan.edge_records.general.len()),
-                count(plan.edge_records.regular.len()),
-                8,
+                edges.general.len() as u32,
+                edges.regular.len() as u32,
+                EDGE_RECORD_POINTS,
             ),
-            ("records/coefficients.comp", &buffers.coefficients, count(plan.coefficients.len()), 0, GREGORY_POINTS),
+            ("records/coefficients.comp", &buffers.coefficients, plan.coefficients.len() as u32, 0, GREGORY_POINTS),
         ];
         for (shader, bindings, count, first, threads_each) in kernels {
             let push = KernelPush { count, first, old_distance: 0 };

@@ -72,6 +72,8 @@ shared_structs! {
         pub view_from_cage: [[f32; 4]; 4],
         /// Eye in cage space; w unused.
         pub eye: [f32; 4],
+        /// Eye that adaptive factors are chosen for, in cage space; w unused.
+        pub factor_eye: [f32; 4],
         /// Uniform tessellation factor of a patch edge.
         pub level: f32,
         /// Adaptive factors: segments of an edge of unit length at unit distance.

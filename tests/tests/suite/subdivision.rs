@@ -1,20 +1,9 @@
 //! The compute kernels against their twins on the host.
 
 use glam::{DVec3, Vec3};
-use osculate::{BoundaryRule, Cage, Engine, EngineError, PlanError, Surface, SurfaceDesc};
+use osculate::{BoundaryRule, Surface};
 use osculate_subdiv::twin;
-use osculate_tests::{gpu, zoo};
-
-const RULES: [BoundaryRule; 3] = [BoundaryRule::EdgeAndCorner, BoundaryRule::EdgeOnly, BoundaryRule::None];
-
-/// The surface, or none if nothing of the cage is drawn.
-fn surface(engine: &Engine, cage: &Cage, rule: BoundaryRule) -> Option<Surface> {
-    match Surface::new(engine, cage, &SurfaceDesc { boundary: Some(rule), ..SurfaceDesc::default() }) {
-        Ok(surface) => Some(surface),
-        Err(EngineError::Plan(PlanError::NothingToDraw { .. })) => None,
-        Err(error) => panic!("{error}"),
-    }
-}
+use osculate_tests::{RULES, gpu, surface, zoo};
 
 fn cage_points(surface: &Surface, points: &[DVec3]) -> Vec<Vec3> {
     points.iter().map(|&p| surface.space().enter(p)).collect()
@@ -40,7 +29,7 @@ fn points_and_records_are_those_of_the_twins() {
     let mut compared = 0;
     for specimen in zoo::all() {
         for rule in RULES {
-            let Some(surface) = surface(&gpu, &specimen.cage, rule) else { continue };
+            let Some(surface) = surface(&gpu, &specimen.cage, Some(rule)) else { continue };
             let name = format!("{}, {rule:?}", specimen.name);
             let points = twin::points(surface.plan(), &cage_points(&surface, specimen.cage.positions()));
             let arrays: Vec<[f32; 3]> = points.iter().map(|p| p.to_array()).collect();
@@ -74,7 +63,7 @@ fn points_and_records_are_those_of_the_twins() {
 fn moved_points_take_everything_with_them() {
     let gpu = gpu();
     let cage = zoo::shipped("twohole");
-    let moving = surface(&gpu, &cage, BoundaryRule::EdgeAndCorner).unwrap();
+    let mut moving = surface(&gpu, &cage, Some(BoundaryRule::EdgeAndCorner)).unwrap();
     let moved: Vec<DVec3> = cage.positions().iter().map(|p| *p * 0.75 + DVec3::new(0.125, 0.0, -0.25)).collect();
     moving.set_points(&moved).unwrap();
     let expected = twin::points(moving.plan(), &cage_points(&moving, &moved));
@@ -82,4 +71,8 @@ fn moved_points_take_everything_with_them() {
     assert_same_bits("moved point", &moving.read_points().unwrap(), &expected, gpu.device().info().is_llvmpipe);
     let error = moving.set_points(&moved[1..]).unwrap_err();
     assert!(error.to_string().contains("points"), "{error}");
+    let mut broken = moved.clone();
+    broken[3].y = f64::NAN;
+    let error = moving.set_points(&broken).unwrap_err();
+    assert!(error.to_string().contains("vertex 3"), "{error}");
 }
