@@ -81,7 +81,7 @@ fn regular_patches_and_vertices_are_exact() {
             compared += compare_with_exact(&format!("{}, {rule:?}", specimen.name), &specimen.cage, &surface, &exact);
         }
     }
-    assert!(compared > 100_000, "only {compared} points compared");
+    assert!(compared > 40_000, "only {compared} points compared");
 }
 
 /// Largest distance of a Gregory patch from the exact surface at equal parameters, as a part of the box. The worst of the zoo are a boundary vertex with six
@@ -89,7 +89,7 @@ fn regular_patches_and_vertices_are_exact() {
 const GREGORY_DISTANCE: f64 = 0.04;
 
 fn compare_with_exact(name: &str, cage: &Cage, surface: &Surface, exact: &Reference<'_>) -> usize {
-    let points = grid_points(surface, cage.face_count(), 5);
+    let points = grid_points(surface, cage.face_count(), 3);
     let size = 2.0 * cage.bounds().half_diagonal();
     let mut compared = 0;
     for (point, sample) in points.iter().zip(surface.sample(&points).unwrap()) {
