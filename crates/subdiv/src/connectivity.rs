@@ -6,6 +6,7 @@
 use std::ops::Range;
 
 use osculate_cage::Topology;
+use rayon::prelude::*;
 
 use crate::NONE;
 
@@ -126,6 +127,9 @@ impl Connectivity for Topology {
     fn prev(&self, h: u32) -> u32 {
         Topology::prev(self, h)
     }
+    fn face_valence(&self, vertex: u32) -> u32 {
+        Topology::face_valence(self, vertex)
+    }
 }
 
 /// The half-edges of a quad mesh that came out of a Catmull-Clark step: face `f` has the half-edges `4 f .. 4 f + 4`, and its vertices are, in order, a
@@ -142,7 +146,6 @@ pub struct QuadConnectivity {
 impl QuadConnectivity {
     /// The mesh after one step on `old`. The caller makes sure that four half-edges per old half-edge fit 32 bits.
     pub fn refine(old: &impl Connectivity) -> Self {
-        use rayon::prelude::*;
         let (faces, edges) = (old.face_count() as u32, old.edge_count() as u32);
         let corners = old.half_edge_count();
         let mut origin = vec![0u32; 4 * corners];
@@ -194,12 +197,12 @@ fn number_edges(twin: &[u32]) -> (Vec<u32>, Vec<u32>) {
 
 /// An outgoing half-edge of every refined vertex, at a boundary the one without a twin.
 fn vertex_half_edges(old: &impl Connectivity) -> Vec<u32> {
-    let face_points = (0..old.face_count() as u32).map(|f| 4 * old.face_half_edges(f).start + 2);
-    let edge_points = (0..old.edge_count() as u32).map(|e| {
+    let face_points = (0..old.face_count() as u32).into_par_iter().map(|f| 4 * old.face_half_edges(f).start + 2);
+    let edge_points = (0..old.edge_count() as u32).into_par_iter().map(|e| {
         let h = old.edge_half_edge(e);
         if old.twin(h) == NONE { 4 * old.next(h) + 3 } else { 4 * h + 1 }
     });
-    let vertex_points = (0..old.vertex_count() as u32).map(|v| 4 * old.vertex_half_edge(v));
+    let vertex_points = (0..old.vertex_count() as u32).into_par_iter().map(|v| 4 * old.vertex_half_edge(v));
     face_points.chain(edge_points).chain(vertex_points).collect()
 }
 

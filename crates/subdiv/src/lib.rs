@@ -6,10 +6,13 @@
 
 mod connectivity;
 mod error;
+mod gather;
+mod lists;
 mod location;
 mod nets;
 mod patches;
 mod plan;
+mod rank;
 mod records;
 mod tables;
 pub mod twin;

@@ -2,11 +2,9 @@
 
 use bytemuck::{Pod, Zeroable};
 use osculate_cage::BoundaryRule;
-use osculate_surface::NetKind;
 
-use crate::nets::FinalMesh;
+use crate::Connectivity;
 use crate::tables::is_corner;
-use crate::{Connectivity, QuadConnectivity};
 
 /// The valences whose nets fit the 32 points of a patch list (the report, section 4).
 pub(crate) const LIST_VALENCES: std::ops::RangeInclusive<u32> = 3..=12;
@@ -34,6 +32,15 @@ impl PatchKind {
             Self::Coefficients => 2,
         }
     }
+
+    /// Points of the nets of this kind; those of coefficient patches differ.
+    pub(crate) fn net_size(self) -> Option<u32> {
+        match self {
+            Self::Regular => Some(16),
+            Self::Extraordinary { valence } => Some(2 * valence + 8),
+            Self::Coefficients => None,
+        }
+    }
 }
 
 /// Patches of one kind, drawn by one pipeline: `count` patches from the global number `first_patch`, their nets from `first_index` of
@@ -50,6 +57,13 @@ pub struct PatchList {
     pub first_index: u32,
     /// First weight of their change of basis, for extraordinary lists.
     pub weights: u32,
+}
+
+impl PatchList {
+    /// Their global numbers.
+    pub(crate) fn patches(&self) -> std::ops::Range<usize> {
+        self.first_patch as usize..(self.first_patch + self.count) as usize
+    }
 }
 
 /// What the shaders know of a patch (`PatchRecord` in shaders/include/records.glsl).
@@ -78,63 +92,64 @@ impl PatchRecord {
     /// The valence of corner 0 begins at this bit of the tag (number of edges).
     pub const VALENCE_SHIFT: u32 = 8;
 
-    pub(crate) fn make_tag(kind: PatchKind, boundary: bool, valence: u32) -> u32 {
-        kind.number() | if boundary { Self::BOUNDARY } else { 0 } | valence << Self::VALENCE_SHIFT
-    }
-
     /// Number of edges at corner 0.
     pub fn valence(&self) -> u32 {
-        self.tag >> Self::VALENCE_SHIFT
+        Tag(self.tag).valence()
     }
 
     /// Whether the patch touches the boundary with corner 0 or a side.
     pub fn is_boundary(&self) -> bool {
-        self.tag & Self::BOUNDARY != 0
+        Tag(self.tag).is_boundary()
     }
 
     /// Whether corner 0 is irregular, so that the patch is no bicubic.
     pub fn is_extraordinary(&self) -> bool {
-        self.tag & Self::KIND_MASK != 0
+        Tag(self.tag).kind() != PatchKind::Regular
     }
 }
 
-/// What a final quad is, from its corner 0; isolation makes the other corners regular.
+/// What a final quad is, from its corner 0; isolation makes the other corners regular. The bits are those of [`PatchRecord::tag`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) struct QuadClass {
-    pub(crate) kind: PatchKind,
-    pub(crate) net: NetKind,
-    pub(crate) boundary: bool,
-    /// Edges at corner 0.
-    pub(crate) valence: u32,
-}
+pub(crate) struct Tag(pub(crate) u32);
 
-pub(crate) fn classify(mesh: &FinalMesh<'_>, rule: BoundaryRule, quad: u32) -> QuadClass {
-    let vertex = mesh.mesh.origin(4 * quad);
-    if mesh.mesh.is_boundary_vertex(vertex) {
-        classify_boundary(mesh.mesh, rule, quad)
-    } else {
-        classify_interior(mesh.mesh.face_valence(vertex))
+impl Tag {
+    fn new(kind: PatchKind, boundary: bool, valence: u32) -> Self {
+        Self(kind.number() | if boundary { PatchRecord::BOUNDARY } else { 0 } | valence << PatchRecord::VALENCE_SHIFT)
+    }
+
+    /// What a vertex of the last mesh but one makes of the final quads about its vertex point, which has as many faces.
+    pub(crate) fn of_vertex(mesh: &impl Connectivity, rule: BoundaryRule, vertex: u32) -> Self {
+        let faces = mesh.face_valence(vertex);
+        if mesh.is_boundary_vertex(vertex) {
+            let regular = faces == 2 || is_corner(mesh, rule, vertex);
+            Self::new(if regular { PatchKind::Regular } else { PatchKind::Coefficients }, true, faces + 1)
+        } else {
+            Self::new(interior_kind(faces), false, faces)
+        }
+    }
+
+    pub(crate) fn kind(self) -> PatchKind {
+        match self.0 & PatchRecord::KIND_MASK {
+            0 => PatchKind::Regular,
+            1 => PatchKind::Extraordinary { valence: self.valence() },
+            _ => PatchKind::Coefficients,
+        }
+    }
+
+    pub(crate) fn is_boundary(self) -> bool {
+        self.0 & PatchRecord::BOUNDARY != 0
+    }
+
+    /// Number of edges at corner 0.
+    pub(crate) fn valence(self) -> u32 {
+        self.0 >> PatchRecord::VALENCE_SHIFT
     }
 }
 
-fn classify_interior(valence: u32) -> QuadClass {
-    let (kind, net) = match valence {
-        4 => (PatchKind::Regular, NetKind::Regular),
-        n if LIST_VALENCES.contains(&n) => (PatchKind::Extraordinary { valence }, NetKind::Interior { valence }),
-        _ => (PatchKind::Coefficients, NetKind::Interior { valence }),
-    };
-    QuadClass { kind, net, boundary: false, valence }
-}
-
-fn classify_boundary(mesh: &QuadConnectivity, rule: BoundaryRule, quad: u32) -> QuadClass {
-    let vertex = mesh.origin(4 * quad);
-    let faces = mesh.face_valence(vertex);
-    let regular = faces == 2 || is_corner(mesh, rule, vertex);
-    let (kind, net) = if regular {
-        (PatchKind::Regular, NetKind::Regular)
-    } else {
-        let place = mesh.ring(vertex).position(|h| h == 4 * quad).unwrap_or(0) as u32;
-        (PatchKind::Coefficients, NetKind::Crease { faces, quad: place })
-    };
-    QuadClass { kind, net, boundary: true, valence: faces + 1 }
+fn interior_kind(valence: u32) -> PatchKind {
+    match valence {
+        4 => PatchKind::Regular,
+        n if LIST_VALENCES.contains(&n) => PatchKind::Extraordinary { valence },
+        _ => PatchKind::Coefficients,
+    }
 }

@@ -3,14 +3,13 @@
 use osculate_cage::{BoundaryRule, Cage};
 use rayon::prelude::*;
 
-use crate::nets::{FinalMesh, Phantoms};
-use crate::patches::{QuadClass, classify};
-use crate::records::{PatchNet, RecordSources, assign};
-use crate::weights::{Role, WeightTable};
-use crate::{
-    Connectivity, Locator, MatrixSource, NONE, PatchKind, PatchList, PatchRecord, PlanError, QuadConnectivity,
-    RefineTables,
-};
+use crate::gather::PatchNets;
+use crate::lists::PatchOrder;
+use crate::nets::FinalMesh;
+use crate::patches::Tag;
+use crate::records::{RecordSources, assign};
+use crate::weights::WeightTable;
+use crate::{Connectivity, Locator, MatrixSource, PatchList, PatchRecord, PlanError, QuadConnectivity, RefineTables};
 
 /// How to plan a cage.
 #[derive(Clone, Copy, Debug, Default)]
@@ -39,7 +38,7 @@ pub struct SurfacePlan {
     pub patches: Vec<PatchRecord>,
     /// Final quad of each patch.
     pub quads: Vec<u32>,
-    /// Patch of each final quad, [`NONE`] if it is not drawn.
+    /// Patch of each final quad, [`crate::NONE`] if it is not drawn.
     pub patch_of_quad: Vec<u32>,
     /// Matrices of changes of basis and records.
     pub weights: Vec<f32>,
@@ -64,23 +63,57 @@ impl SurfacePlan {
         let rule = desc.boundary.or(cage.boundary_rule()).unwrap_or_default();
         let steps = if cage.is_quads() { 1 } else { 2 };
         check_size(cage, steps)?;
-        let base = cage.topology();
-        let mut levels = vec![RefineTables::build(base, rule, 0)];
-        let mut mesh = QuadConnectivity::refine(base);
-        for _ in 1..steps {
-            let first = levels.last().map_or(0, |level| level.first_new);
-            levels.push(RefineTables::build(&mesh, rule, first));
-            mesh = QuadConnectivity::refine(&mesh);
-        }
-        let first_point = levels.last().map_or(0, |level| level.first_new);
-        let locator = Locator::new(cage, steps);
         let drawn = drawn_faces(cage, rule);
         if !drawn.contains(&true) {
             return Err(PlanError::NothingToDraw { faces: cage.face_count() });
         }
-        let final_mesh = FinalMesh { mesh: &mesh, first_point };
-        Ok(Patches::gather(&final_mesh, rule, |quad| drawn[locator.base_face(quad) as usize])
-            .finish(&mesh, rule, levels, locator))
+        let (base, locator) = (cage.topology(), Locator::new(cage, steps));
+        let tables = RefineTables::build(base, rule, 0);
+        if steps == 1 {
+            return Self::finish(base, vec![tables], rule, locator, |quad| drawn[base.face(quad) as usize]);
+        }
+        let mesh = QuadConnectivity::refine(base);
+        let second = RefineTables::build(&mesh, rule, tables.first_new);
+        let levels = vec![tables, second];
+        Self::finish(&mesh, levels, rule, locator, |quad| drawn[base.face(quad / 4) as usize])
+    }
+
+    /// Plans the patches of the mesh after one step on `mesh`, the last of `levels`.
+    fn finish<M: Connectivity>(
+        mesh: &M,
+        levels: Vec<RefineTables>,
+        rule: BoundaryRule,
+        locator: Locator,
+        is_drawn: impl Fn(u32) -> bool + Sync,
+    ) -> Result<Self, PlanError> {
+        let vertices = mesh.vertex_count() as u32;
+        let tags: Vec<Tag> = (0..vertices).into_par_iter().map(|v| Tag::of_vertex(mesh, rule, v)).collect();
+        check_nets(&tags)?;
+        let first_point = levels.last().map_or(0, |level| level.first_new);
+        let mesh = FinalMesh { old: mesh, first_point, tags };
+        let order = PatchOrder::new(&mesh, is_drawn);
+        let mut weights = WeightTable::default();
+        let nets = PatchNets::gather(&mesh, &order, &mut weights);
+        let records = assign(&mesh, &order, &nets, &mut weights);
+        let first_phantom = first_point + mesh.point_count() as u32;
+        Ok(Self {
+            rule,
+            levels,
+            point_count: first_phantom + nets.phantoms.reflections.len() as u32,
+            first_phantom,
+            reflections: nets.phantoms.reflections,
+            lists: nets.lists,
+            nets: nets.nets,
+            patches: records.patches,
+            quads: order.quads,
+            patch_of_quad: order.patch_of_quad,
+            weights: weights.weights,
+            vertex_records: records.vertices,
+            edge_records: records.edges,
+            coefficients: nets.coefficients,
+            boundary_edges: records.boundary_edges,
+            locator,
+        })
     }
 
     /// Number of refinement steps.
@@ -127,7 +160,7 @@ fn drawn_faces(cage: &Cage, rule: BoundaryRule) -> Vec<bool> {
     drawn
 }
 
-/// Refuses cages whose final mesh could overflow 32-bit numbers: half-edges grow by four per step, nets take about 16 indices a quad.
+/// Refuses cages whose final mesh could overflow 32-bit numbers: half-edges grow by four per step, and every final quad has four slots for records.
 fn check_size(cage: &Cage, steps: u32) -> Result<(), PlanError> {
     let final_quads = (cage.topology().half_edge_count() as u64) << (2 * (steps - 1));
     let limit = u64::from(u32::MAX) / 24;
@@ -137,140 +170,9 @@ fn check_size(cage: &Cage, steps: u32) -> Result<(), PlanError> {
     Ok(())
 }
 
-/// Patches in list order, before records are assigned.
-struct Patches {
-    lists: Vec<PatchList>,
-    nets: Vec<u32>,
-    patches: Vec<PatchRecord>,
-    sources: Vec<PatchNet>,
-    phantoms: Phantoms,
-    weights: WeightTable,
-    coefficients: Vec<MatrixSource>,
-    patch_of_quad: Vec<u32>,
-    first_phantom: u32,
-}
-
-impl Patches {
-    fn gather(mesh: &FinalMesh<'_>, rule: BoundaryRule, is_drawn: impl Fn(u32) -> bool + Sync) -> Self {
-        let quads = mesh.mesh.face_count() as u32;
-        let classes: Vec<Option<QuadClass>> =
-            (0..quads).into_par_iter().map(|quad| is_drawn(quad).then(|| classify(mesh, rule, quad))).collect();
-        let first_phantom = mesh.first_point + mesh.mesh.vertex_count() as u32;
-        let mut patches = Self {
-            lists: Vec::new(),
-            nets: Vec::new(),
-            patches: Vec::new(),
-            sources: Vec::new(),
-            phantoms: Phantoms::new(first_phantom),
-            weights: WeightTable::default(),
-            coefficients: Vec::new(),
-            patch_of_quad: vec![NONE; quads as usize],
-            first_phantom,
-        };
-        let mut kinds: Vec<PatchKind> = classes.iter().flatten().map(|class| class.kind).collect();
-        kinds.par_sort_unstable();
-        kinds.dedup();
-        for kind in kinds {
-            let members = (0..quads).filter_map(|quad| {
-                classes[quad as usize].filter(|class| class.kind == kind).map(|class| (quad, class))
-            });
-            patches.add_list(mesh, kind, &members.collect::<Vec<_>>());
-        }
-        patches
-    }
-
-    fn add_list(&mut self, mesh: &FinalMesh<'_>, kind: PatchKind, members: &[(u32, QuadClass)]) {
-        let (first_patch, first_index) = (self.patches.len() as u32, self.nets.len() as u32);
-        let weights = match kind {
-            PatchKind::Extraordinary { valence } => {
-                self.weights.offset(osculate_surface::NetKind::Interior { valence }, Role::Gregory)
-            }
-            _ => 0,
-        };
-        self.lists.push(PatchList { kind, first_patch, count: members.len() as u32, first_index, weights });
-        if kind == PatchKind::Regular {
-            self.gather_regular(mesh, members);
-        }
-        for (i, &(quad, class)) in members.iter().enumerate() {
-            let net = match kind {
-                PatchKind::Regular => first_index + 16 * i as u32,
-                _ => self.gather_irregular(mesh, quad, class),
-            };
-            let net_size = class.net.net_size() as u32;
-            let basis = match kind {
-                PatchKind::Coefficients => self.add_coefficients(class, net, net_size),
-                _ => weights,
-            };
-            self.patch_of_quad[quad as usize] = self.patches.len() as u32;
-            let tag = PatchRecord::make_tag(kind, class.boundary, class.valence);
-            self.patches.push(PatchRecord { net, basis, net_size, tag, ..PatchRecord::default() });
-            self.sources.push(PatchNet { quad, net: class.net });
-        }
-    }
-
-    /// Nets of the regular list: inner ones in parallel, those at the boundary one by one because they share phantom points.
-    fn gather_regular(&mut self, mesh: &FinalMesh<'_>, members: &[(u32, QuadClass)]) {
-        let inner: Vec<[u32; 16]> = members
-            .par_iter()
-            .with_min_len(1024)
-            .map(|&(quad, class)| if class.boundary { [NONE; 16] } else { mesh.regular_net(quad) })
-            .collect();
-        for (net, &(quad, class)) in inner.iter().zip(members) {
-            self.nets.extend(if class.boundary { mesh.boundary_net(quad, &mut self.phantoms) } else { *net });
-        }
-    }
-
-    fn gather_irregular(&mut self, mesh: &FinalMesh<'_>, quad: u32, class: QuadClass) -> u32 {
-        let first = self.nets.len() as u32;
-        if class.boundary {
-            self.nets.extend(mesh.sector_net(quad));
-        } else {
-            self.nets.extend(mesh.interior_net(quad));
-        }
-        first
-    }
-
-    fn add_coefficients(&mut self, class: QuadClass, net: u32, columns: u32) -> u32 {
-        let weights = self.weights.offset(class.net, Role::Gregory);
-        self.coefficients.push(MatrixSource { net, weights, columns });
-        (self.coefficients.len() - 1) as u32
-    }
-
-    fn finish(
-        mut self,
-        mesh: &QuadConnectivity,
-        rule: BoundaryRule,
-        levels: Vec<RefineTables>,
-        locator: Locator,
-    ) -> SurfacePlan {
-        let (vertex_records, edge_records) = assign(mesh, &self.sources, &mut self.patches, &mut self.weights);
-        let boundary_edges = boundary_edges(&self.patches, edge_records.count());
-        SurfacePlan {
-            rule,
-            levels,
-            point_count: self.first_phantom + self.phantoms.reflections.len() as u32,
-            first_phantom: self.first_phantom,
-            reflections: self.phantoms.reflections,
-            lists: self.lists,
-            nets: self.nets,
-            patches: self.patches,
-            quads: self.sources.iter().map(|source| source.quad).collect(),
-            patch_of_quad: self.patch_of_quad,
-            weights: self.weights.weights,
-            vertex_records,
-            edge_records,
-            coefficients: self.coefficients,
-            boundary_edges,
-            locator,
-        }
-    }
-}
-
-/// Whether each edge record belongs to one drawn patch only.
-fn boundary_edges(patches: &[PatchRecord], count: usize) -> Vec<bool> {
-    let mut uses = vec![0u8; count];
-    for edge in patches.iter().flat_map(|patch| patch.edge) {
-        uses[(edge / 2) as usize] += 1;
-    }
-    uses.into_iter().map(|n| n == 1).collect()
+/// Refuses cages whose nets could overflow 32-bit numbers. Those about a vertex grow with the square of its valence, so few faces may need many points.
+fn check_nets(tags: &[Tag]) -> Result<(), PlanError> {
+    let about_vertex = |valence: u64| valence * (2 * valence + 8);
+    let (count, limit) = (tags.par_iter().map(|tag| about_vertex(tag.valence().into())).sum(), u32::MAX.into());
+    if count > limit { Err(PlanError::TooLarge { what: "points of nets", count, limit }) } else { Ok(()) }
 }

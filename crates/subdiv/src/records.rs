@@ -1,10 +1,14 @@
 //! Vertex and edge records: which patch each is computed from, and which records a patch names.
 
 use bytemuck::{Pod, Zeroable};
-use osculate_surface::NetKind;
+use rayon::prelude::*;
 
+use crate::gather::PatchNets;
+use crate::lists::PatchOrder;
+use crate::nets::FinalMesh;
+use crate::rank::RankedSet;
 use crate::weights::{Role, WeightTable};
-use crate::{Connectivity, NONE, PatchRecord, QuadConnectivity};
+use crate::{Connectivity, NONE, PatchRecord};
 
 /// A matrix of weights times a net (`MatrixSource` in shaders/include/sources.glsl).
 #[repr(C)]
@@ -32,61 +36,192 @@ impl RecordSources {
     pub fn count(&self) -> usize {
         self.regular.len() + self.general.len()
     }
-
-    fn push(&mut self, is_regular: bool, patch: u32, slot: usize, general: impl FnOnce() -> MatrixSource) -> u32 {
-        if is_regular {
-            // Patches are visited regular ones first, so no general record precedes.
-            debug_assert!(self.general.is_empty());
-            self.regular.push(4 * patch + slot as u32);
-        } else {
-            self.general.push(general());
-        }
-        (self.count() - 1) as u32
-    }
 }
 
-/// A patch with what records need of it.
-pub(crate) struct PatchNet {
-    pub(crate) quad: u32,
-    pub(crate) net: NetKind,
+/// What [`assign`] makes.
+pub(crate) struct Records {
+    pub(crate) patches: Vec<PatchRecord>,
+    pub(crate) vertices: RecordSources,
+    pub(crate) edges: RecordSources,
+    /// Whether each edge record belongs to one drawn patch only.
+    pub(crate) boundary_edges: Vec<bool>,
 }
 
 /// Gives every vertex and edge of drawn patches a record, owned by the first patch in patch order that has it (so by a regular one if there is one),
-/// and writes the records' numbers into the patches. One owner computes a record once; both sides read it.
-pub(crate) fn assign(
-    mesh: &QuadConnectivity,
-    nets: &[PatchNet],
-    patches: &mut [PatchRecord],
+/// and the patches the records' numbers. One owner computes a record once; both sides read it.
+pub(crate) fn assign<M: Connectivity>(
+    mesh: &FinalMesh<'_, M>,
+    order: &PatchOrder,
+    nets: &PatchNets,
     weights: &mut WeightTable,
-) -> (RecordSources, RecordSources) {
-    let (mut vertices, mut edges) = (RecordSources::default(), RecordSources::default());
-    let mut vertex_of = vec![NONE; mesh.vertex_count()];
-    // The record of an edge and the half-edge it is walked along.
-    let mut edge_of = vec![(NONE, NONE); mesh.edge_count()];
-    for (id, (record, PatchNet { quad, net })) in patches.iter_mut().zip(nets).enumerate() {
-        let is_regular = *net == NetKind::Regular;
-        let (first_index, columns) = (record.net, record.net_size);
+) -> Records {
+    let slots = Slots { mesh, order };
+    let owned = Owned::new(&slots);
+    let patches = owned.patch_records(nets);
+    let first_irregular = nets.regular_count();
+    let (vertices, edges) = general_sources(&owned, &patches, first_irregular, weights);
+    let edge_slots = owned.edges.members();
+    let is_boundary = |&slot: &u32| slots.twins(slots.quad(slot))[(slot % 4) as usize] == NONE;
+    let boundary_edges = edge_slots.par_iter().map(is_boundary).collect();
+    let regular = |mut slots: Vec<u32>| {
+        slots.truncate(slots.partition_point(|&slot| slot < 4 * first_irregular));
+        slots
+    };
+    Records {
+        patches,
+        vertices: RecordSources { regular: regular(owned.vertices.members()), general: vertices },
+        edges: RecordSources { regular: regular(edge_slots), general: edges },
+        boundary_edges,
+    }
+}
+
+/// Corners and sides of patches: a slot is four times the patch, plus the corner or side.
+struct Slots<'a, M> {
+    mesh: &'a FinalMesh<'a, M>,
+    order: &'a PatchOrder,
+}
+
+impl<M: Connectivity> Slots<'_, M> {
+    /// The quad whose corner or side a slot is.
+    fn quad(&self, slot: u32) -> u32 {
+        self.order.quads[(slot / 4) as usize]
+    }
+
+    /// [`NONE`] if the quad is not drawn, or is [`NONE`] itself.
+    fn of(&self, quad: u32, k: u32) -> u32 {
+        match self.order.patch_of_quad.get(quad as usize) {
+            None | Some(&NONE) => NONE,
+            Some(patch) => 4 * patch + k,
+        }
+    }
+
+    /// The slots on the other side of a quad's edges, [`NONE`] where nothing is drawn there.
+    fn twins(&self, quad: u32) -> [u32; 4] {
+        let old = self.mesh.old;
+        let (next, prev) = (old.next(quad), old.prev(quad));
+        let below = match old.twin(quad) {
+            NONE => NONE,
+            twin => old.next(twin),
+        };
+        [self.of(below, 3), self.of(next, 2), self.of(prev, 1), self.of(old.twin(prev), 0)]
+    }
+}
+
+/// Which slot owns each point of the final mesh: the lowest of those that share it.
+struct PointOwners {
+    face_points: Vec<u32>,
+    edge_points: Vec<u32>,
+    vertex_points: Vec<u32>,
+}
+
+impl PointOwners {
+    fn new<M: Connectivity>(slots: &Slots<'_, M>) -> Self {
+        let old = slots.mesh.old;
+        let at_face = |f| old.face_half_edges(f).map(|h| slots.of(h, 2)).min();
+        let at_edge = |e| {
+            let h = old.edge_half_edge(e);
+            let sides = [h, old.twin(h)].into_iter().filter(|&side| side != NONE);
+            sides.map(|h| slots.of(h, 1).min(slots.of(old.next(h), 3))).min()
+        };
+        let at_vertex = |v| old.ring(v).map(|h| slots.of(h, 0)).min();
+        Self {
+            face_points: owners(old.face_count(), at_face),
+            edge_points: owners(old.edge_count(), at_edge),
+            vertex_points: owners(old.vertex_count(), at_vertex),
+        }
+    }
+
+    /// Owners of the four vertices of a quad.
+    fn corners(&self, old: &impl Connectivity, quad: u32) -> [u32; 4] {
+        [
+            self.vertex_points[old.origin(quad) as usize],
+            self.edge_points[old.edge(quad) as usize],
+            self.face_points[old.face(quad) as usize],
+            self.edge_points[old.edge(old.prev(quad)) as usize],
+        ]
+    }
+}
+
+fn owners(count: usize, lowest: impl Fn(u32) -> Option<u32> + Sync) -> Vec<u32> {
+    (0..count as u32).into_par_iter().map(|element| lowest(element).unwrap_or(NONE)).collect()
+}
+
+/// The slots that own a record, in the order of the records.
+struct Owned<'a, M> {
+    slots: &'a Slots<'a, M>,
+    points: PointOwners,
+    vertices: RankedSet,
+    edges: RankedSet,
+}
+
+impl<'a, M: Connectivity> Owned<'a, M> {
+    fn new(slots: &'a Slots<'a, M>) -> Self {
+        let points = PointOwners::new(slots);
+        let word = |(i, quads): (usize, &[u32])| {
+            let (mut vertices, mut edges) = (0, 0);
+            for (bit, &quad) in (0..64).step_by(4).zip(quads) {
+                let (corners, twins) = (points.corners(slots.mesh.old, quad), slots.twins(quad));
+                for k in 0..4 {
+                    let slot = 64 * i as u32 + bit + k;
+                    vertices |= u64::from(corners[k as usize] == slot) << (bit + k);
+                    edges |= u64::from(slot < twins[k as usize]) << (bit + k);
+                }
+            }
+            (vertices, edges)
+        };
+        let (vertices, edges): (Vec<u64>, Vec<u64>) =
+            slots.order.quads.par_chunks(16).enumerate().with_min_len(64).map(word).unzip();
+        Self { slots, points, vertices: RankedSet::new(vertices), edges: RankedSet::new(edges) }
+    }
+
+    /// Number of the record of an edge with slots on both sides, as in [`PatchRecord::edge`].
+    fn edge_record(&self, slot: u32, twin: u32) -> u32 {
+        if slot < twin { 2 * self.edges.rank(slot) } else { 2 * self.edges.rank(twin) + 1 }
+    }
+
+    fn patch_records(&self, nets: &PatchNets) -> Vec<PatchRecord> {
+        let Slots { mesh, order } = self.slots;
+        let mut patches = Vec::with_capacity(order.quads.len());
+        for list in &nets.lists {
+            patches.par_extend((0..list.count).into_par_iter().map(|i| {
+                let patch = list.first_patch + i;
+                let quad = order.quads[patch as usize];
+                let twins = self.slots.twins(quad);
+                let (net, basis, net_size) = nets.shape(list, i);
+                PatchRecord {
+                    vertex: self.points.corners(mesh.old, quad).map(|owner| self.vertices.rank(owner)),
+                    edge: [0, 1, 2, 3].map(|k| self.edge_record(4 * patch + k, twins[k as usize])),
+                    net,
+                    basis,
+                    net_size,
+                    tag: mesh.tag(quad).0,
+                }
+            }));
+        }
+        patches
+    }
+}
+
+/// Sources of the vertex and edge records that irregular patches own.
+fn general_sources<M: Connectivity>(
+    owned: &Owned<'_, M>,
+    patches: &[PatchRecord],
+    first_irregular: u32,
+    weights: &mut WeightTable,
+) -> (Vec<MatrixSource>, Vec<MatrixSource>) {
+    let Slots { mesh, order } = owned.slots;
+    let (mut vertices, mut edges) = (Vec::new(), Vec::new());
+    for patch in first_irregular..patches.len() as u32 {
+        let PatchRecord { net, net_size: columns, .. } = patches[patch as usize];
+        let kind = mesh.net_kind(order.quads[patch as usize]);
+        let mut source = |role| MatrixSource { net, weights: weights.offset(kind, role), columns };
         for k in 0..4 {
-            let h = 4 * quad + k as u32;
-            let vertex = &mut vertex_of[mesh.origin(h) as usize];
-            if *vertex == NONE {
-                *vertex = vertices.push(is_regular, id as u32, k, || MatrixSource {
-                    net: first_index,
-                    weights: weights.offset(*net, Role::Vertex(k)),
-                    columns,
-                });
+            if owned.vertices.contains(4 * patch + k) {
+                vertices.push(source(Role::Vertex(k as usize)));
             }
-            record.vertex[k] = *vertex;
-            let edge = &mut edge_of[mesh.edge(h) as usize];
-            if edge.0 == NONE {
-                let number = edges.push(is_regular, id as u32, k, || MatrixSource {
-                    net: first_index,
-                    weights: weights.offset(*net, Role::Edge(k)),
-                    columns,
-                });
-                *edge = (number, h);
+            if owned.edges.contains(4 * patch + k) {
+                edges.push(source(Role::Edge(k as usize)));
             }
-            record.edge[k] = 2 * edge.0 + u32::from(edge.1 != h);
         }
     }
     (vertices, edges)

@@ -83,10 +83,11 @@ impl RefineTables {
 }
 
 fn face_tables(old: &impl Connectivity, first_old: u32) -> (Vec<[u32; 2]>, Vec<u32>) {
-    let spans = (0..old.face_count() as u32)
-        .map(|f| old.face_half_edges(f))
-        .map(|range| [range.start, range.end - range.start])
-        .collect();
+    let span = |f| {
+        let range = old.face_half_edges(f);
+        [range.start, range.end - range.start]
+    };
+    let spans = (0..old.face_count() as u32).into_par_iter().map(span).collect();
     let indices = (0..old.half_edge_count() as u32).into_par_iter().map(|h| first_old + old.origin(h)).collect();
     (spans, indices)
 }
@@ -109,23 +110,46 @@ fn vertex_tables(
     first_old: u32,
     first_new: u32,
 ) -> (Vec<[u32; 2]>, Vec<u32>) {
-    let mut spans = Vec::with_capacity(old.vertex_count());
-    let mut indices = Vec::with_capacity(2 * old.half_edge_count());
-    for v in 0..old.vertex_count() as u32 {
-        let offset = indices.len() as u32;
-        let valence = if !old.is_boundary_vertex(v) {
-            indices.extend(old.ring(v).flat_map(|h| [first_old + old.target(h), first_new + old.face(h)]));
-            (indices.len() as u32 - offset) / 2
-        } else if is_corner(old, rule, v) {
-            0
-        } else {
-            let (start, end) = boundary_half_edges(old, v);
-            indices.extend([first_old + old.target(start), first_old + old.origin(end)]);
-            1
-        };
-        spans.push([offset, valence]);
+    let valence = |v| match old.is_boundary_vertex(v) {
+        false => old.face_valence(v),
+        true => u32::from(!is_corner(old, rule, v)),
+    };
+    let mut spans: Vec<[u32; 2]> = (0..old.vertex_count() as u32).into_par_iter().map(|v| [0, valence(v)]).collect();
+    let mut end = 0;
+    for [offset, valence] in &mut spans {
+        *offset = end;
+        end += 2 * *valence;
     }
+    let mut indices = vec![0; end as usize];
+    fill_rows(&spans, &mut indices, |v, row| {
+        if old.is_boundary_vertex(v) {
+            let (start, end) = boundary_half_edges(old, v);
+            row.copy_from_slice(&[first_old + old.target(start), first_old + old.origin(end)]);
+        } else {
+            for (pair, h) in row.chunks_exact_mut(2).zip(old.ring(v)) {
+                pair.copy_from_slice(&[first_old + old.target(h), first_new + old.face(h)]);
+            }
+        }
+    });
     (spans, indices)
+}
+
+/// Fills, in parallel, the rows of V that are not empty; they lie one after the other.
+fn fill_rows(spans: &[[u32; 2]], mut indices: &mut [u32], fill: impl Fn(u32, &mut [u32]) + Sync) {
+    const ROWS: usize = 4096;
+    let mut blocks = Vec::with_capacity(spans.len().div_ceil(ROWS));
+    for spans in spans.chunks(ROWS) {
+        let length = spans.iter().map(|[_, valence]| 2 * *valence as usize).sum();
+        let (block, rest) = indices.split_at_mut(length);
+        blocks.push((spans, block));
+        indices = rest;
+    }
+    blocks.into_par_iter().enumerate().for_each(|(i, (spans, mut block))| {
+        for (v, [_, valence]) in (ROWS * i..).zip(spans).filter(|(_, [_, valence])| *valence > 0) {
+            let row = block.split_off_mut(..2 * *valence as usize).unwrap_or_default();
+            fill(v as u32, row);
+        }
+    });
 }
 
 /// Whether a boundary vertex stays where it is: it has one face and the rule keeps such corners.

@@ -163,3 +163,13 @@ fn vertex_records_lie_on_the_exact_surface() {
 fn is_valence_two(plan: &SurfacePlan, patch: usize) -> bool {
     plan.patches[patch].valence() == 2 && !plan.patches[patch].is_boundary()
 }
+
+/// The nets about a vertex of valence n have n (2n + 8) points: a cone is refused long before its faces are too many.
+#[test]
+fn nets_that_overflow_their_indices_are_refused() {
+    let sides = 50_000;
+    let faces: Vec<[u32; 3]> = (0..sides).map(|i| [sides, i, (i + 1) % sides]).collect();
+    let cone = common::cage(sides as usize + 1, &faces.iter().map(|face| &face[..]).collect::<Vec<_>>());
+    let error = SurfacePlan::build(&cone, &PlanDesc::default()).err().expect("a refusal").to_string();
+    assert!(error.contains("points of nets would number 50") && error.contains("split the cage"), "{error}");
+}

@@ -1,0 +1,97 @@
+//! Sorting the final quads into patch lists.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+
+use crate::nets::FinalMesh;
+use crate::patches::{LIST_VALENCES, PatchKind};
+use crate::{Connectivity, NONE};
+
+/// Final quads in the order of their patches: by kind, within a kind by number.
+pub(crate) struct PatchOrder {
+    /// The patches of each kind, kinds without patches left out.
+    pub(crate) runs: Vec<(PatchKind, Range<u32>)>,
+    /// Final quad of each patch.
+    pub(crate) quads: Vec<u32>,
+    /// Patch of each final quad, [`NONE`] if it is not drawn.
+    pub(crate) patch_of_quad: Vec<u32>,
+}
+
+/// The bucket of quads that are not drawn, after those of all kinds.
+const UNDRAWN: u8 = bucket(PatchKind::Coefficients) + 1;
+
+/// Kinds in the order of their lists.
+const fn bucket(kind: PatchKind) -> u8 {
+    match kind {
+        PatchKind::Regular => 0,
+        PatchKind::Extraordinary { valence } => (valence - *LIST_VALENCES.start()) as u8 + 1,
+        PatchKind::Coefficients => (*LIST_VALENCES.end() - *LIST_VALENCES.start()) as u8 + 2,
+    }
+}
+
+fn kind(number: u8) -> PatchKind {
+    match number {
+        0 => PatchKind::Regular,
+        n if n < bucket(PatchKind::Coefficients) => {
+            PatchKind::Extraordinary { valence: LIST_VALENCES.start() + u32::from(n) - 1 }
+        }
+        _ => PatchKind::Coefficients,
+    }
+}
+
+impl PatchOrder {
+    pub(crate) fn new<M: Connectivity>(mesh: &FinalMesh<'_, M>, is_drawn: impl Fn(u32) -> bool + Sync) -> Self {
+        let quads = mesh.quad_count() as u32;
+        let bucket_of = |quad| if is_drawn(quad) { bucket(mesh.tag(quad).kind()) } else { UNDRAWN };
+        Self::sort(&(0..quads).into_par_iter().map(bucket_of).collect::<Vec<u8>>())
+    }
+
+    /// A counting sort.
+    fn sort(buckets: &[u8]) -> Self {
+        let mut counts = [0; UNDRAWN as usize + 1];
+        buckets.iter().for_each(|&bucket| counts[bucket as usize] += 1);
+        let (mut runs, mut next, mut end) = (Vec::new(), [0; UNDRAWN as usize], 0);
+        for bucket in 0..UNDRAWN {
+            let start = end;
+            end += counts[bucket as usize];
+            next[bucket as usize] = start;
+            if start < end {
+                runs.push((kind(bucket), start..end));
+            }
+        }
+        let mut quads = vec![0; end as usize];
+        let place = |(quad, &bucket): (usize, &u8)| match next.get_mut(bucket as usize) {
+            Some(next) => {
+                let patch = std::mem::replace(next, *next + 1);
+                quads[patch as usize] = quad as u32;
+                patch
+            }
+            None => NONE,
+        };
+        let patch_of_quad = buckets.iter().enumerate().map(place).collect();
+        Self { runs, quads, patch_of_quad }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn buckets_are_in_the_order_of_kinds() {
+        let kinds: Vec<PatchKind> = (0..UNDRAWN).map(kind).collect();
+        assert!(kinds.is_sorted());
+        assert_eq!(kinds.iter().map(|&kind| bucket(kind)).collect::<Vec<u8>>(), (0..UNDRAWN).collect::<Vec<u8>>());
+        assert_eq!(kinds.len(), LIST_VALENCES.count() + 2);
+    }
+
+    #[test]
+    fn quads_are_sorted_by_kind_and_stay_in_order_within_one() {
+        let five = PatchKind::Extraordinary { valence: 5 };
+        let order = PatchOrder::sort(&[UNDRAWN - 1, bucket(five), 0, UNDRAWN, 0, bucket(five)]);
+        assert_eq!(order.runs, [(PatchKind::Regular, 0..2), (five, 2..4), (PatchKind::Coefficients, 4..5)]);
+        assert_eq!(order.quads, [2, 4, 1, 5, 0]);
+        assert_eq!(order.patch_of_quad, [4, 2, 0, NONE, 1, 3]);
+    }
+}
