@@ -65,7 +65,7 @@ pub fn check(surface: &Surface, tessellation: &Tessellation) -> Result<CheckRepo
         proof.add(vertices);
         Ok::<(), EngineError>(())
     })?;
-    Ok(proof.finish())
+    Ok(proof.finish(surface.boundary_edge_count()))
 }
 
 /// Bits of a position or a normal.
@@ -190,7 +190,11 @@ impl<'a> Proof<'a> {
         welded.1 |= boundary;
     }
 
-    fn finish(mut self) -> CheckReport {
+    /// `boundary` is the number of boundary edges that the cage says there are: the plan must not call an edge boundary because its two patches do not
+    /// find each other.
+    fn finish(mut self, boundary: usize) -> CheckReport {
+        let planned = self.plan.boundary_edges.iter().filter(|&&boundary| boundary).count();
+        self.report.open += planned.abs_diff(boundary) as u64;
         self.report.wrong_patches += self.drawn.iter().filter(|&&drawn| !drawn).count() as u64;
         for (&(edge, a, b), &count) in &self.border {
             self.report.over_shared += u64::from(count - 1);

@@ -30,6 +30,7 @@ pub struct Surface {
     scheme: Scheme,
     buffers: SurfaceBuffers,
     cage_edge_count: u32,
+    boundary_edge_count: usize,
 }
 
 impl Surface {
@@ -42,6 +43,7 @@ impl Surface {
         let topology = cage.topology();
         let edges: Vec<[u32; 2]> =
             topology.edge_half_edges().iter().map(|&h| [topology.origin(h), topology.target(h)]).collect();
+        let boundary_edge_count = boundary_edges(cage, plan.rule) << plan.steps();
         let mut surface = Self {
             buffers: SurfaceBuffers::new(engine.device(), &plan, &edges)?,
             engine: engine.clone(),
@@ -50,6 +52,7 @@ impl Surface {
             space: CageSpace::new(cage.bounds()),
             scheme: desc.scheme,
             cage_edge_count: edges.len() as u32,
+            boundary_edge_count,
         };
         surface.set_points(cage.positions())?;
         Ok(surface)
@@ -215,7 +218,19 @@ impl Surface {
         self.radius
     }
 
+    /// Patch edges on the boundary of what is drawn, as the cage has them: each step halves its edges.
+    pub(crate) fn boundary_edge_count(&self) -> usize {
+        self.boundary_edge_count
+    }
+
     pub(crate) fn cage_edge_count(&self) -> u32 {
         self.cage_edge_count
     }
+}
+
+/// Edges of the cage with a drawn face on one side only.
+fn boundary_edges(cage: &Cage, rule: BoundaryRule) -> usize {
+    let (topology, drawn) = (cage.topology(), cage.drawn_faces(rule));
+    let is_drawn = |h: u32| h != osculate_cage::NONE && drawn[topology.face(h) as usize];
+    topology.edge_half_edges().iter().filter(|&&h| is_drawn(h) != is_drawn(topology.twin(h))).count()
 }
