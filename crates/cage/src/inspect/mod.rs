@@ -21,9 +21,9 @@ pub struct Inspection {
     pub faces: usize,
     /// Faces by their number of corners.
     pub faces_by_size: BTreeMap<u32, usize>,
-    /// Inner vertices by valence.
+    /// Vertices by valence: the number of edges there, at the boundary too.
     pub valence: BTreeMap<u32, usize>,
-    /// Boundary vertices by valence, counted in edges.
+    /// Those of them at the boundary.
     pub boundary_valence: BTreeMap<u32, usize>,
     /// Number of edges with one face.
     pub boundary_edges: usize,
@@ -108,7 +108,8 @@ impl Serialize for Problem {
 #[must_use]
 pub fn inspect(cage: &Cage) -> Inspection {
     let topology = cage.topology();
-    let (valence, boundary_valence) = valences(topology);
+    let vertices = 0..topology.vertex_count() as u32;
+    let valence = |v: u32| topology.valence(v);
     let boundaries = boundaries(topology);
     let components = components(topology);
     let euler = topology.vertex_count() as i64 - topology.edge_count() as i64 + topology.face_count() as i64;
@@ -117,8 +118,8 @@ pub fn inspect(cage: &Cage) -> Inspection {
         edges: topology.edge_count(),
         faces: cage.face_count(),
         faces_by_size: histogram((0..cage.face_count()).map(|f| cage.face(f).len() as u32)),
-        valence,
-        boundary_valence,
+        valence: histogram(vertices.clone().map(valence)),
+        boundary_valence: histogram(vertices.filter(|&v| topology.is_boundary_vertex(v)).map(valence)),
         boundary_edges: topology.twins().iter().filter(|&&twin| twin == NONE).count(),
         boundaries,
         components,
@@ -136,15 +137,6 @@ fn histogram(values: impl Iterator<Item = u32>) -> BTreeMap<u32, usize> {
     let mut counts = BTreeMap::new();
     values.for_each(|value| *counts.entry(value).or_default() += 1);
     counts
-}
-
-/// Valences of inner and of boundary vertices.
-fn valences(topology: &Topology) -> (BTreeMap<u32, usize>, BTreeMap<u32, usize>) {
-    let of = |boundary: bool| {
-        let vertices = (0..topology.vertex_count() as u32).filter(|&v| topology.is_boundary_vertex(v) == boundary);
-        histogram(vertices.map(|v| topology.valence(v)))
-    };
-    (of(false), of(true))
 }
 
 /// Number of closed curves of boundary edges: at every boundary vertex one comes in and one goes out.

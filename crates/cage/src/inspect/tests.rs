@@ -85,11 +85,13 @@ fn torus_and_sheets() {
 
     let sheet = inspect(&grid(3, 3, [false, false], &[]));
     assert_eq!((sheet.genus, sheet.euler, sheet.boundaries, sheet.boundary_edges), (0, 1, 1, 12));
-    assert_eq!(sheet.valence, [(4, 4)].into());
+    assert_eq!(sheet.valence, [(2, 4), (3, 8), (4, 4)].into());
     assert_eq!(sheet.boundary_valence, [(2, 4), (3, 8)].into());
 
     let punched = inspect(&grid(7, 7, [true, true], &[8, 24]));
     assert_eq!((punched.genus, punched.boundaries, punched.boundary_edges), (1, 2, 8));
+    // An open vertex of valence 4 has three faces; it counts as one of valence 4.
+    assert_eq!((punched.valence, punched.boundary_valence), ([(4, 49)].into(), [(4, 8)].into()));
 }
 
 #[test]

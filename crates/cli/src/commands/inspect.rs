@@ -14,7 +14,9 @@ use std::fmt::{Display, Write};
 /// Say what a cage is made of.
 ///
 /// Prints vertices, faces, valences, boundaries, tags, the patches that each scheme makes of the cage, and what may be a
-/// mistake. A readable cage exits with 0, whatever its problems; exit code 3 means that it cannot be read or is refused.
+/// mistake. The valence of a vertex is the number of its edges, at the boundary too; vertices at the boundary are also
+/// counted alone. A readable cage exits with 0, whatever its problems; exit code 3 means that it cannot be read or is
+/// refused.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct InspectArgs {

@@ -20,7 +20,8 @@ fn json_has_the_keys_of_the_contract() {
         ("vertices", json!(6)),
         ("faces", json!(3)),
         ("faces_by_size", json!({ "3": 2, "4": 1 })),
-        ("valence", json!({})),
+        ("valence", json!({ "2": 3, "3": 2, "4": 1 })),
+        ("boundary_valence", json!({ "2": 3, "3": 2, "4": 1 })),
         ("boundary_edges", json!(6)),
         ("components", json!(1)),
         ("genus", json!(0)),
@@ -55,7 +56,13 @@ fn problems_are_listed_in_both_forms() {
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("cage.obj"), odd).unwrap();
     let text = osculate(folder.path(), &["inspect", "cage.obj"]).exits(0).stdout;
-    for part in ["vertices         6\n", "face sizes       3 (x2), 4 (x1)\n", "gregory2 ", "unused"] {
+    for part in [
+        "vertices         6\n",
+        "face sizes       3 (x2), 4 (x1)\n",
+        "valences         2 (x3), 3 (x2), 4 (x1)\n",
+        "gregory2 ",
+        "unused",
+    ] {
         assert!(text.contains(part), "{part:?} in {text}");
     }
 }
