@@ -1,4 +1,4 @@
-//! Reading a cage and deciding which of its faces are the surface.
+//! Reading a cage and deciding which boundary rule applies to it.
 
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
@@ -69,17 +69,5 @@ impl InputArgs {
             EngineError::Plan(error) => Failure::input(format_args!("{}: {error}", self.file.display())),
             other => other.into(),
         }
-    }
-}
-
-impl Input {
-    /// For each face whether it is part of the surface: not a hole, and under the rule `none` not at the boundary.
-    pub(crate) fn drawn_faces(&self) -> Vec<bool> {
-        let cage = &self.cage;
-        let at_boundary = |face: usize| cage.face(face).iter().any(|&v| cage.topology().is_boundary_vertex(v));
-        let dropped = |face: usize| self.boundary == BoundaryRule::None && at_boundary(face);
-        let mut drawn: Vec<bool> = (0..cage.face_count()).map(|face| !dropped(face)).collect();
-        cage.tags().holes.iter().for_each(|&hole| drawn[hole as usize] = false);
-        drawn
     }
 }

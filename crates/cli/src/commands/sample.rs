@@ -6,12 +6,13 @@ use crate::failure::{Failure, Verdict, WriteError};
 use crate::input::{Input, InputArgs};
 use crate::options::SchemeName;
 use crate::progress::Progress;
-use crate::samples::exact::{self, Exact};
-use crate::samples::{self, Found, Place, Places, drawn};
+use crate::samples::exact::Exact;
+use crate::samples::{self, Places};
 use crate::stdout;
 use clap::{Args, ValueEnum};
-use osculate::{Scheme, Surface, SurfaceDesc};
+use osculate::{Sample, Scheme, Surface, SurfaceDesc, SurfacePoint};
 use osculate_compare::whole_file;
+use osculate_surface::reference::Mesh;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
@@ -120,14 +121,14 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let path = job.output.as_deref();
     match job.evaluator {
         Evaluator::Reference => {
-            let mesh = exact::mesh(&input.cage);
+            let mesh = Mesh::from(&input.cage);
             let exact = Exact::new(&mesh, input.boundary)?;
             write_rows(path, places, &|places| exact.evaluate(places), global)?;
         }
         Evaluator::Device(scheme) => with_engine(global, |engine| {
             let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
             let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
-            write_rows(path, places, &|places| drawn::evaluate(&surface, places), global)
+            write_rows(path, places, &|places| Ok(surface.sample(places)?), global)
         })?,
     }
     Ok(Verdict::Pass)
@@ -135,7 +136,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
 
 impl PlacesFrom {
     fn read(&self, input: &Input) -> Result<Places, Failure> {
-        let drawn = input.drawn_faces();
+        let drawn = input.cage.drawn_faces(input.boundary);
         match self {
             Self::Grid(n) => Ok(samples::grid(&input.cage, *n, &drawn)),
             Self::List(path) => samples::read(path, &input.cage, &drawn),
@@ -144,7 +145,7 @@ impl PlacesFrom {
 }
 
 /// Evaluates a batch of places.
-type Evaluate<'a> = &'a dyn Fn(&[Place]) -> Result<Vec<Found>, Failure>;
+type Evaluate<'a> = &'a dyn Fn(&[SurfacePoint]) -> Result<Vec<Sample>, Failure>;
 
 fn write_rows(path: Option<&Path>, places: Places, evaluate: Evaluate<'_>, global: &GlobalArgs) -> Result<(), Failure> {
     let progress = Progress::new(global.quiet, places.len, "sampling");

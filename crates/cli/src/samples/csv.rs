@@ -1,16 +1,16 @@
 //! Rows of `sample`.
 
-use super::{Found, Place};
+use osculate::{Sample, SubFace, SurfacePoint};
 use std::io::{self, Write};
 
 /// Names of the columns.
 pub(crate) const HEADER: &str = "face,sub,s,t,px,py,pz,dux,duy,duz,dvx,dvy,dvz,nx,ny,nz,ev";
 
 /// Writes a row. Numbers have the fewest digits that read back as the same number.
-pub(crate) fn write_row(out: &mut dyn Write, place: &Place, found: &Found) -> io::Result<()> {
-    let Place { face, sub, s, t } = place;
+pub(crate) fn write_row(out: &mut dyn Write, place: &SurfacePoint, found: &Sample) -> io::Result<()> {
+    let SurfacePoint { sub_face: SubFace { face, sub }, s, t } = place;
     write!(out, "{face},{sub},{s},{t}")?;
-    for vector in [found.position, found.ds, found.dt, found.normal] {
+    for vector in [found.position, found.du, found.dv, found.normal] {
         write!(out, ",{},{},{}", vector.x, vector.y, vector.z)?;
     }
     writeln!(out, ",{}", u8::from(found.irregular))
@@ -23,11 +23,11 @@ mod tests {
 
     #[test]
     fn rows_have_the_columns_of_the_header_and_read_back() {
-        let place = Place { face: 3, sub: -1, s: 0.1, t: 1.0 };
-        let found = Found {
+        let place = SurfacePoint { sub_face: SubFace { face: 3, sub: -1 }, s: 0.1, t: 1.0 };
+        let found = Sample {
             position: DVec3::new(1.0 / 3.0, -2.5e-12, 1e6),
-            ds: DVec3::X,
-            dt: DVec3::splat(0.1 + 0.2),
+            du: DVec3::X,
+            dv: DVec3::splat(0.1 + 0.2),
             normal: DVec3::ZERO,
             irregular: true,
         };

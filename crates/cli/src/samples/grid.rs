@@ -1,24 +1,22 @@
 //! Regular grids over all faces.
 
-use super::{Place, Places};
-use osculate_cage::Cage;
+use super::Places;
+use osculate::{SubFace, SurfacePoint};
+use osculate_cage::{Cage, sub_faces};
 
 /// The `(n + 1)^2` places of a grid on each face (each sub-face, unless the face is a quad) that is drawn: faces in file
 /// order, then sub-faces, t, s. `n` is at least 1.
 pub(crate) fn grid(cage: &Cage, n: u32, drawn: &[bool]) -> Places {
-    let faces = (0..cage.face_count()).filter(|&face| drawn[face]);
-    let subs: Vec<(u32, i32)> =
-        faces.flat_map(|face| sub_faces(cage.face(face).len()).map(move |sub| (face as u32, sub))).collect();
+    let drawn = (0..cage.face_count()).filter(|&face| drawn[face]);
+    let sub_faces: Vec<SubFace> = drawn
+        .flat_map(|face| sub_faces(cage.face(face).len()).map(move |sub| SubFace { face: face as u32, sub }))
+        .collect();
     let side = u64::from(n) + 1;
-    let len = side.saturating_mul(side).saturating_mul(subs.len() as u64);
-    let places =
-        subs.into_iter().flat_map(move |(face, sub)| unit_square(n).map(move |(s, t)| Place { face, sub, s, t }));
+    let len = side.saturating_mul(side).saturating_mul(sub_faces.len() as u64);
+    let places = sub_faces
+        .into_iter()
+        .flat_map(move |sub_face| unit_square(n).map(move |(s, t)| SurfacePoint { sub_face, s, t }));
     Places { len, iterator: Box::new(places) }
-}
-
-/// The values of `sub` for a face: -1 alone for a quad, else its corners.
-pub(crate) fn sub_faces(corners: usize) -> std::ops::Range<i32> {
-    if corners == 4 { -1..0 } else { 0..corners as i32 }
 }
 
 /// Multiples of 1/n; quotients rather than products, so that the last is exactly 1.
@@ -52,10 +50,11 @@ mod tests {
         assert_eq!(places.len, 64);
         let places = places.batches().flatten().collect::<Vec<_>>();
         assert_eq!(places.len(), 16 * 4);
-        assert_eq!(places[1], Place { face: 0, sub: -1, s: 1.0 / 3.0, t: 0.0 });
-        assert_eq!(places[15], Place { face: 0, sub: -1, s: 1.0, t: 1.0 });
-        assert_eq!(places[16 + 4], Place { face: 1, sub: 0, s: 0.0, t: 1.0 / 3.0 });
-        assert_eq!(places[63], Place { face: 1, sub: 2, s: 1.0, t: 1.0 });
+        let place = |face, sub, s, t| SurfacePoint { sub_face: SubFace { face, sub }, s, t };
+        assert_eq!(places[1], place(0, -1, 1.0 / 3.0, 0.0));
+        assert_eq!(places[15], place(0, -1, 1.0, 1.0));
+        assert_eq!(places[16 + 4], place(1, 0, 0.0, 1.0 / 3.0));
+        assert_eq!(places[63], place(1, 2, 1.0, 1.0));
     }
 
     #[test]
@@ -71,6 +70,6 @@ mod tests {
     fn faces_that_are_not_drawn_are_left_out() {
         let places = grid(&cage(), 1, &[false, true]).batches().flatten().collect::<Vec<_>>();
         assert_eq!(places.len(), 12);
-        assert!(places.iter().all(|place| place.face == 1));
+        assert!(places.iter().all(|place| place.sub_face.face == 1));
     }
 }

@@ -1,9 +1,9 @@
 //! Lists of places from a file.
 
-use super::grid::sub_faces;
-use super::{Place, Places};
+use super::Places;
 use crate::failure::Failure;
-use osculate_cage::Cage;
+use osculate::{SubFace, SurfacePoint};
+use osculate_cage::{Cage, sub_faces};
 use std::path::Path;
 
 /// Reads places from a CSV file: face, sub, s, t in each line, after an optional header. Further columns are
@@ -29,19 +29,18 @@ pub(crate) fn read(path: &Path, cage: &Cage, drawn: &[bool]) -> Result<Places, F
     Ok(Places { len: places.len() as u64, iterator: Box::new(places.into_iter()) })
 }
 
-fn parse(text: &str) -> Option<Place> {
+fn parse(text: &str) -> Option<SurfacePoint> {
     let mut cells = text.split(',').map(str::trim);
     let mut next = || cells.next();
-    Some(Place {
-        face: next()?.parse().ok()?,
-        sub: next()?.parse().ok()?,
+    Some(SurfacePoint {
+        sub_face: SubFace { face: next()?.parse().ok()?, sub: next()?.parse().ok()? },
         s: next()?.parse().ok()?,
         t: next()?.parse().ok()?,
     })
 }
 
-fn check(place: &Place, cage: &Cage, drawn: &[bool]) -> Result<(), String> {
-    let Place { face, sub, s, t } = *place;
+fn check(place: &SurfacePoint, cage: &Cage, drawn: &[bool]) -> Result<(), String> {
+    let SurfacePoint { sub_face: SubFace { face, sub }, s, t } = *place;
     if face as usize >= cage.face_count() {
         return Err(format!("there is no face {face}; the faces are 0..{}", cage.face_count()));
     }
@@ -78,7 +77,7 @@ mod tests {
         .unwrap()
     }
 
-    fn read_text(text: &str, drawn: bool) -> Result<Vec<Place>, Failure> {
+    fn read_text(text: &str, drawn: bool) -> Result<Vec<SurfacePoint>, Failure> {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("points.csv");
         std::fs::write(&path, text).unwrap();
@@ -88,7 +87,7 @@ mod tests {
     #[test]
     fn headers_blank_lines_and_further_columns_are_skipped() {
         let places = read_text("\u{feff}face,sub,s,t,px\r\n0,2,0.25,1,99\r\n\n 0, 0, 0, 0.5\n", true).unwrap();
-        let place = |sub, s, t| Place { face: 0, sub, s, t };
+        let place = |sub, s, t| SurfacePoint { sub_face: SubFace { face: 0, sub }, s, t };
         assert_eq!(places, [place(2, 0.25, 1.0), place(0, 0.0, 0.5)]);
     }
 
