@@ -13,7 +13,7 @@ fn folder() -> TempDir {
 
 /// The bytes of the export to `name`.
 fn export(folder: &TempDir, name: &str, more: &[&str]) -> Vec<u8> {
-    let ran = osculate(folder.path(), &[&["export", "cage.obj", "-o", name, "--validation"], more].concat()).exits(0);
+    let ran = osculate(folder.path(), &[&["export", "cage.obj", "-o", name], more].concat()).exits(0);
     assert_eq!((ran.stdout.as_str(), ran.stderr.as_str()), ("", ""));
     fs::read(folder.path().join(name)).unwrap()
 }

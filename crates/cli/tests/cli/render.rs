@@ -12,7 +12,7 @@ fn folder() -> TempDir {
 }
 
 fn render(folder: &TempDir, more: &[&str]) -> Picture {
-    let fixed = ["render", "cage.obj", "-o", "out.png", "--size", "64x48", "--validation"];
+    let fixed = ["render", "cage.obj", "-o", "out.png", "--size", "64x48"];
     let ran = osculate(folder.path(), &[&fixed[..], more].concat()).exits(0);
     assert_eq!((ran.stdout.as_str(), ran.stderr.as_str()), ("", ""));
     load(&folder.path().join("out.png")).unwrap()
@@ -34,12 +34,14 @@ fn the_surface_is_in_the_middle_of_a_picture_of_that_size() {
 fn every_shade_gives_another_picture() {
     let folder = folder();
     let shades = ["lit", "normals", "patches", "valence", "wireframe", "zebra", "curvature", "peer"];
-    let pictures = shades.map(|shade| render(&folder, &["--shade", shade]));
+    // Few triangles: where they are hardly wider than a pixel, the wireframe fades away.
+    let render = |more: &[&str]| render(&folder, &[&["--level", "2"], more].concat());
+    let pictures = shades.map(|shade| render(&["--shade", shade]));
     for (i, picture) in pictures.iter().enumerate() {
         assert!(!pictures[..i].contains(picture), "{} is as one before", shades[i]);
     }
-    assert_ne!(render(&folder, &["--cage"]), pictures[0]);
-    assert_ne!(render(&folder, &["--samples", "1"]), pictures[0]);
+    assert_ne!(render(&["--cage"]), pictures[0]);
+    assert_ne!(render(&["--samples", "1"]), pictures[0]);
 }
 
 #[test]

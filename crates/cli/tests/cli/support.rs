@@ -22,10 +22,20 @@ pub(crate) fn osculate(folder: &Path, arguments: &[&str]) -> Ran {
     Ran::new(arguments, output)
 }
 
-/// The command with arguments, not yet started.
+/// Commands that open a device.
+const ON_A_DEVICE: [&str; 4] = ["check", "export", "render", "sample"];
+
+/// The command with arguments, not yet started. What opens a device does so under validation, which makes it fail if the layers
+/// have anything to say.
 pub(crate) fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_osculate"));
-    command.args(arguments).current_dir(folder).env_remove("OSCULATE_DEVICE").stdin(Stdio::null());
+    let validated = arguments.first().is_some_and(|name| ON_A_DEVICE.contains(name));
+    command
+        .args(arguments)
+        .args(validated.then_some("--validation"))
+        .current_dir(folder)
+        .env_remove("OSCULATE_DEVICE")
+        .stdin(Stdio::null());
     command
 }
 
