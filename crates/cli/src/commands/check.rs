@@ -17,8 +17,8 @@ use serde::Serialize;
 /// Corners of triangles that lie on a common edge or vertex of patches must have the same bits in position and normal,
 /// whichever patch drew them, and the triangles must close over them. Prints a line per scheme and level: triangles, then
 /// what must be zero, which is open (edges without a partner), over_shared (edges with too many), split_normals (corners that
-/// differ) and inverted (triangles the wrong way round). Degenerate triangles are counted and allowed. Beside it stands the
-/// same question asked of positions alone.
+/// differ), inverted (triangles the wrong way round) and wrong_patches (those that the device left out, drew twice or made up).
+/// Degenerate triangles are counted and allowed. Beside it stands the same question asked of positions alone.
 ///
 /// Exit code 1 means that a proof failed.
 #[derive(Args, Debug)]
@@ -143,12 +143,14 @@ impl Job {
     }
 
     fn line(&self, scheme: Scheme, case: &Case, report: &CheckReport) -> String {
-        let CheckReport { triangles, open, over_shared, split_normals, inverted, degenerate, weld, .. } = report;
+        let CheckReport {
+            triangles, open, over_shared, split_normals, inverted, wrong_patches, degenerate, weld, ..
+        } = report;
         let (key, value, spacing) = (case.key, case.value, self.spacing.name());
         let verdict = if report.is_watertight() { "watertight" } else { "NOT WATERTIGHT" };
         format!(
             "{scheme} {key} {value} {spacing}: {triangles} triangles, {open} open, {over_shared} over_shared, \
-             {split_normals} split_normals, {inverted} inverted, {degenerate} degenerate; \
+             {split_normals} split_normals, {inverted} inverted, {wrong_patches} wrong_patches, {degenerate} degenerate; \
              by position {} open, {} over_shared: {verdict}",
             weld.open, weld.over_shared
         )
@@ -167,6 +169,7 @@ impl Job {
             split_positions: report.split_positions,
             split_normals: report.split_normals,
             inverted: report.inverted,
+            wrong_patches: report.wrong_patches,
             degenerate: report.degenerate,
             weld: Weld { open: report.weld.open, over_shared: report.weld.over_shared },
             watertight: report.is_watertight(),
@@ -189,6 +192,7 @@ struct Object {
     split_positions: u64,
     split_normals: u64,
     inverted: u64,
+    wrong_patches: u64,
     degenerate: u64,
     weld: Weld,
     watertight: bool,
