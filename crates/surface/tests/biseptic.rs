@@ -90,11 +90,6 @@ fn weights_stay_bounded() {
 }
 
 #[test]
-fn generation_repeats_bit_for_bit() {
-    assert_eq!(biseptic::patch(7), biseptic::patch(7));
-}
-
-#[test]
 fn valence_four_is_the_bicubic_with_derivatives() {
     let star = bumpy(4, 3);
     let patch = patches(4, &star)[0];
@@ -230,7 +225,8 @@ fn cross_derivative_is_half_the_difference_of_both_patches() {
     }
 }
 
-/// Where the points of quad i+1's net are in quad i's, for those that side 0 of the former and side 3 of the latter share.
+/// Where the points of quad i+1's net are in quad i's, for those that side 0 of the former and side 3 of the latter
+/// share.
 fn shared_points(valence: u32) -> Vec<(usize, usize)> {
     let n = valence as usize;
     let ring = (0..2 * n).map(|h| (1 + (h + 2) % (2 * n), 1 + h));

@@ -2,21 +2,22 @@
 //! [derivation](super#derivation).
 //!
 //! # Valence 3
-//! With epsilon = 0, `(gamma / alpha)'` would have to vanish at 0, for which no tau leaves alpha positive. Let `a = -(1-u)^3 / alpha`,
-//! a linear factor `y = 1 + eta (u-1)`, `e = (kappa - eta) a / y` in place of epsilon / alpha, and `P_v = y z` on the odd half. The condition
-//! `alpha P_vv = gamma P_v' + epsilon P_v` of that half becomes `P_vv = a (y z' + kappa z)`. Locality asks for
-//! `z = O(u^4)`, and with the end data of the bicubic at u = 1
+//! With epsilon = 0, `(gamma / alpha)'` would have to vanish at 0, which no tau with a factor alpha achieves. Let
+//! `a = -(1-u)^3 / alpha`, a linear factor `y = 1 + eta (u-1)`, `e = (kappa - eta) a / y` in place of epsilon / alpha,
+//! and `P_v = y z` on the odd half. The condition `alpha P_vv = gamma P_v' + epsilon P_v` of that half becomes
+//! `P_vv = a (y z' + kappa z)`. Locality asks for `z = O(u^4)`, and with the end data of the bicubic at u = 1
 //! ```text
 //! 6 z = u^4 (1 - (1 + eta) (u-1) + (1 + eta + eta^2) (u-1)^2)
 //! ```
-//! For degree 7 alpha must divide r and `(y z' + kappa z) / u^3`, and at V `e = a'`. These are five equations for the two coefficients of
-//! alpha, tau, eta and kappa. Their root in [`CubeCorner`] was found by Newton's method; multiplying by y makes all three
-//! polynomials.
+//! For degree 7 alpha must divide r and `(y z' + kappa z) / u^3`, and at V `e = a'`. These are five equations for the
+//! two coefficients of alpha, tau, eta and kappa. Their root in [`CubeCorner`] was found by Newton's method;
+//! multiplying by y makes all three polynomials.
 
 use super::spoke::multiply;
 use crate::angle::turn;
 
-/// Polynomials of the parameter along a spoke, from V, as Bernstein coefficients: alpha and epsilon of degree m, gamma of degree m+1.
+/// Polynomials of the parameter along a spoke, from V, as Bernstein coefficients: alpha and epsilon of degree m, gamma
+/// of degree m+1.
 pub(super) struct Correspondence {
     pub(super) alpha: Vec<f64>,
     pub(super) gamma: Vec<f64>,
@@ -51,8 +52,8 @@ fn tau(n: u32) -> f64 {
     }
 }
 
-/// Length of the first derivative at V for the characteristic ring with E0 at distance 1, where it is set rather than left to the
-/// energy, which would make it grow.
+/// Length of the first derivative at V for the characteristic ring with E0 at distance 1, where it is set rather than
+/// left to the energy, which would make it grow.
 pub(super) fn first_derivative(n: u32) -> Option<f64> {
     match n {
         ..=8 => None,
@@ -68,7 +69,8 @@ fn cubic(tau: f64) -> [f64; 4] {
 
 /// The quadratic factor of `r` without real zeros, as power coefficients up to a factor: r divided by its real zero.
 ///
-/// The zero is beyond u = 1 for tau > 0 and below 0 for tau < 0. Newton's method started further out approaches it from one side.
+/// The zero is beyond u = 1 for tau > 0 and below 0 for tau < 0. Newton's method started further out approaches it from
+/// one side.
 fn quadratic_factor([c0, c1, c2, c3]: [f64; 4]) -> [f64; 3] {
     if c3 == 0.0 {
         return [c0, c1, c2];

@@ -3,8 +3,8 @@
 use super::Coefficients;
 use super::spoke::binomial;
 
-/// Norm under which what is left of a condition of norm 1 counts as implied by the others. Over all valences and modes what is left is
-/// above 1e-5 or below 1e-14.
+/// Norm under which what is left of a condition of norm 1 counts as implied by the others. Over all valences and modes
+/// what is left is above 1e-3 or below 2e-13.
 const IMPLIED: f64 = 1e-9;
 
 /// A linear equation `weights . x = value`.
@@ -31,6 +31,10 @@ impl Equation {
         dot(&self.weights, &self.weights).sqrt()
     }
 
+    fn without_value(self) -> Self {
+        Self { value: 0.0, ..self }
+    }
+
     fn normalized(mut self) -> Self {
         let norm = self.norm();
         self.weights.iter_mut().for_each(|w| *w /= norm);
@@ -39,8 +43,9 @@ impl Equation {
     }
 }
 
-/// The coefficients whose entries `free` minimise the sum of the squared fourth differences along i and j, given the others
-/// and conditions `weights . b = value`, which must leave no bicubic free: the outer sides alone allow multiples of one.
+/// The coefficients whose entries `free` minimise the sum of the squared fourth differences along i and j, given the
+/// others and conditions `weights . b = value`, which must leave no bicubic free: the outer sides alone allow multiples
+/// of one.
 pub(super) fn fill(fixed: &Coefficients, free: &[usize], conditions: &[(Coefficients, f64)]) -> Coefficients {
     let restricted = |(weights, value): &(Coefficients, f64)| Equation {
         weights: free.iter().map(|&k| weights[k]).collect(),
@@ -68,8 +73,8 @@ fn fourth_differences() -> Vec<Coefficients> {
     lines.flat_map(|(line, start)| [difference(start + 8 * line, 1), difference(line + 8 * start, 8)]).collect()
 }
 
-/// The x of `size` numbers that meets the conditions, which must not contradict each other, with the least sum of squares of
-/// the `energy` equations' errors.
+/// The x of `size` numbers that meets the conditions, which must not contradict each other, with the least sum of
+/// squares of the `energy` equations' errors.
 fn minimise(conditions: Vec<Equation>, energy: Vec<Equation>, size: usize) -> Vec<f64> {
     let met = orthonormal(conditions);
     // What the conditions leave open, as directions.
@@ -85,14 +90,8 @@ fn minimise(conditions: Vec<Equation>, energy: Vec<Equation>, size: usize) -> Ve
     x
 }
 
-impl Equation {
-    fn without_value(self) -> Self {
-        Self { value: 0.0, ..self }
-    }
-}
-
-/// Equations with orthonormal weights that say the same, by Gram-Schmidt with the largest remainder next and every pivot
-/// orthogonalised twice (Golub and Van Loan, *Matrix Computations*, sections 5.2 and 5.4).
+/// Equations with orthonormal weights that say the same, by Gram-Schmidt with the largest remainder next and every
+/// pivot orthogonalised twice (Golub and Van Loan, *Matrix Computations*, sections 5.2 and 5.4).
 fn orthonormal(equations: Vec<Equation>) -> Vec<Equation> {
     let mut left: Vec<Equation> =
         equations.into_iter().filter(|e| e.norm() > IMPLIED).map(Equation::normalized).collect();
@@ -110,8 +109,8 @@ fn largest(equations: &[Equation]) -> Option<(usize, f64)> {
     equations.iter().map(Equation::norm).enumerate().max_by(|a, b| a.1.total_cmp(&b.1))
 }
 
-/// The y that minimises `|sum y_k columns_k - right|`, by modified Gram-Schmidt on the columns with the right side among them
-/// (Golub and Van Loan, section 5.3.5). The columns must be independent.
+/// The y that minimises `|sum y_k columns_k - right|`, by modified Gram-Schmidt on the columns with the right side
+/// among them (Golub and Van Loan, section 5.3.5). The columns must be independent.
 fn least_squares(mut columns: Vec<Vec<f64>>, mut right: Vec<f64>) -> Vec<f64> {
     let count = columns.len();
     let mut upper = vec![vec![0.0; count]; count];

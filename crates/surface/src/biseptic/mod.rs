@@ -11,48 +11,50 @@
 //! neighbour q has the same spoke on its side u = 0, walked by its v. Write `p_u` and `p_v` for the derivatives of p
 //! along and across the spoke, and for q likewise `q_y` along and `q_x` across.
 //!
-//! **Outer sides.** `b(i,j)` with i >= 5 or j >= 5 are those of the bicubic B-spline of the net, raised to degree 7: they
-//! hold the second-order jet on u = 1 and v = 1, so every neighbour there, bicubic or biseptic, meets the patch with
-//! equal second derivatives. The point that the net lacks has no weight in them. 25 coefficients (i, j <= 4) are left.
+//! **Outer sides.** `b(i,j)` with i >= 5 or j >= 5 are those of the bicubic B-spline of the net, raised to degree 7:
+//! they hold the second-order jet on u = 1 and v = 1, so every neighbour there, bicubic or biseptic, meets the patch
+//! with equal second derivatives. The point that the net lacks has no weight in them. 25 coefficients (i, j <= 4) are
+//! left.
 //!
-//! **Spokes.** p and q join with continuous curvature when some change of parameters makes their second-order jets equal.
-//! Taking one that treats both sides alike, with polynomials alpha, gamma and epsilon of the spoke's parameter:
+//! **Spokes.** p and q join with continuous curvature when some change of parameters makes their second-order jets
+//! equal. Taking one that treats both sides alike, with polynomials alpha, gamma and epsilon of the spoke's parameter:
 //! ```text
 //! (G0)  p = q
 //! (G1)  alpha (p_v + q_x)  = gamma p_u
 //! (G2)  alpha (p_vv - q_xx) = gamma (p_uv - q_xy) + epsilon (p_v - q_x)
 //! ```
-//! Split the pair into its halves that are equal and opposite on both sides. The even half meets G0 and G2 by symmetry and
-//! needs `2 alpha P_v = gamma P'`; the odd half meets G1 and needs `P = 0` and `alpha P_vv = gamma P_v' + epsilon P_v`. These
-//! are identities between polynomials, imposed on their Bernstein coefficients.
+//! Split the pair into its halves that are equal and opposite on both sides. The even half meets G0 and G2 by symmetry
+//! and needs `2 alpha P_v = gamma P'`; the odd half meets G1 and needs `P = 0` and
+//! `alpha P_vv = gamma P_v' + epsilon P_v`. These are identities between polynomials, imposed on their Bernstein
+//! coefficients.
 //!
-//! **At V.** n spokes close up if `gamma / alpha = 2 cos(2 pi / n)` at 0. With the second-order jets of n-1 spokes the
-//! curvature at V is then one tensor. For n = 3 alone the jets exist only if also `epsilon / alpha = (gamma / alpha)'` at 0.
+//! **At V.** n sectors of equal angle close up if `gamma / alpha = 2 cos(2 pi / n)` at 0. Then one quadratic form at V
+//! meets the conditions of all spokes, but for n = 3, where it exists only if at 0 also `epsilon / alpha = (gamma / alpha)'`.
 //!
 //! **Locality.** A point that p's net lacks must not move p, so O1 moves the even half of two patches only: their
 //! coefficients with i <= 2 stay. Near V then `P_v = O(u^3)`, hence by G1 `P' = O(u^3)`. At u = 1 the bicubic gives
-//! P = 1/6, P' = 1/2, P'' = 1 and `P_v = O((1-u)^3)`, which gamma must provide. What is left of P' is `u^3 r(u)` with a cubic
-//! r, three conditions at u = 1 and hence one parameter tau:
+//! P = 1/6, P' = 1/2, P'' = 1 and `P_v = O((1-u)^3)`, which gamma must provide. What is left of P' is `u^3 r(u)` with a
+//! cubic r, three conditions at u = 1 and hence one parameter tau:
 //! ```text
 //! r(u) = (2 u^2 - 5 u + 4) / 2 + tau (1-u)^2 (4 - 7 u)
 //! ```
-//! and since gamma has no other zeros alpha divides r. The smallest choice is the quadratic factor of r that has no real
-//! zeros, with `gamma = 2 cos(2 pi / n) alpha(0) (1-u)^3` and epsilon = 0. Valence 3 needs epsilon: see `correspondence`.
+//! With the least gamma, `2 cos(2 pi / n) alpha(0) (1-u)^3`, alpha divides r, and must be quadratic for P_v to have
+//! degree 7: it is the factor of r without real zeros. Epsilon is 0, but valence 3 needs it: see `correspondence`.
 //!
-//! **Freedom.** 7 to 12 coefficients remain per Fourier mode of the ring. Least squares of the fourth differences of the
-//! Bezier points along i and j choose them: zero exactly for bicubics, so that n = 4 is the bicubic B-spline patch. The
-//! columns of O0..O6 are fair by themselves. Those of V, E and F are not: a single point's bump is no shape a surface
-//! has, and the columns would sum to 1 within 1 % only. Instead the ring is made fair for the 2n+1 eigenvectors of
-//! Catmull-Clark subdivision, and the columns follow from these by linear algebra. The constant is one of them, so that
-//! points sum to 1.
+//! **Freedom.** 6 to 12 coefficients remain per Fourier mode of the ring. Least squares of the fourth differences of
+//! the Bezier points along i and j choose them: zero exactly for bicubics, so that n = 4 is the bicubic B-spline patch.
+//! The columns of O0..O6 are fair by themselves. Those of V, E and F are not: a single point's bump is no shape a
+//! surface has, and the columns would sum to 1 within 1 % only. Instead the ring is made fair for the 2n+1 eigenvectors
+//! of Catmull-Clark subdivision, and the columns follow from these by linear algebra. The constant is one of them, so
+//! that points sum to 1.
 //!
-//! **Pins.** The position and the tangent plane at V are those of the limit surface, so the vertex record is that of every other
-//! scheme. From valence 9 on the energy alone stretches the first derivative at V, and at valence 3 it leaves cube
-//! corners pointed: these are set (see `correspondence` and `ring`).
+//! **Pins.** The position and the tangent plane at V are those of the limit surface, so the vertex record is that of
+//! every other scheme. From valence 9 on the energy alone stretches the first derivative at V, and at valence 3 it
+//! leaves cube corners pointed: these are set (see `correspondence` and `ring`).
 //!
 //! # Watertightness
-//! The sides u = 1 and v = 1 are cubics: their records are those of [`gregory::edge`](crate::gregory::edge). Spokes have
-//! records of degree 7 ([`edge`]). Both answer the question that section 4.3 of the report leaves open.
+//! The sides u = 1 and v = 1 are cubics: their records are those of [`gregory::edge`](crate::gregory::edge). Spokes
+//! have records of degree 7 ([`edge`]). Both answer the question that section 4.3 of the report leaves open.
 
 mod correspondence;
 mod degree7;
@@ -66,6 +68,7 @@ pub mod twin;
 pub use degree7::{curve, evaluate};
 
 use std::ops::RangeInclusive;
+use std::sync::OnceLock;
 
 use crate::masks;
 use crate::matrix::Matrix;
@@ -80,10 +83,10 @@ pub const POSSIBLE_VALENCES: RangeInclusive<u32> = 3..=14;
 /// The 64 Bezier points of the patch, row `i + 8 j` with i along u: 64 x (2n+8), over the net of
 /// [`NetKind::Interior`](crate::NetKind::Interior).
 ///
-/// Rows sum to 1. Exchanging u and v mirrors the net bit for bit, and the rows of a spoke are bit for bit those that the patch
-/// on its other side has for it. Valence 4 is the bicubic B-spline patch but for rounding.
+/// Rows sum to 1. Exchanging u and v mirrors the net bit for bit, and the rows of a spoke are bit for bit those that
+/// the patch on its other side has for it. Valence 4 is the bicubic B-spline patch but for rounding.
 ///
-/// Computed anew at every call, in about a millisecond.
+/// Generated when a valence is first asked for, in some milliseconds, and kept.
 ///
 /// # Panics
 /// If `valence` is not in [`POSSIBLE_VALENCES`].
@@ -92,19 +95,29 @@ pub fn patch(valence: u32) -> Matrix {
         POSSIBLE_VALENCES.contains(&valence),
         "biseptic patches exist for valences {POSSIBLE_VALENCES:?}, not {valence}; use another scheme there"
     );
+    generated(valence).clone()
+}
+
+/// The matrix of a valence, generated once.
+fn generated(valence: u32) -> &'static Matrix {
+    static MATRICES: [OnceLock<Matrix>; 12] = [const { OnceLock::new() }; 12];
+    MATRICES[(valence - POSSIBLE_VALENCES.start()) as usize].get_or_init(|| generate(valence))
+}
+
+fn generate(valence: u32) -> Matrix {
     let columns = ring::columns(valence);
     let mut matrix = Matrix::from_fn(64, columns.len(), |row, col| columns[col][row]);
     share_spokes(valence, &mut matrix);
     matrix
 }
 
-/// The record of spoke 0 (`side` 0, walked from V) or spoke 1 (`side` 3, walked towards V): 16 x (2n+8). Rows 0..8 are the
-/// Bezier points of the curve C of degree 7, rows 8..16 those of the cross derivative D. The surface normal on the spoke is
-/// C' x D.
+/// The record of spoke 0 (`side` 0, walked from V) or spoke 1 (`side` 3, walked towards V): 16 x (2n+8). Rows 0..8 are
+/// the Bezier points of the curve C of degree 7, rows 8..16 those of the cross derivative D. The surface normal on the
+/// spoke is C' x D.
 ///
-/// As in [`gregory::edge`](crate::gregory::edge), D is half the difference (left - right)/2 of the derivatives of the two
-/// patches across the edge per unit parameter, left being into this patch; the sum of the two is parallel to C' by G1.
-/// The neighbour's C is reversed, its D reversed and negated, both bit for bit. The outer sides 1 and 2 are cubics,
+/// As in [`gregory::edge`](crate::gregory::edge), D is half the difference (left - right)/2 of the derivatives of the
+/// two patches across the edge per unit parameter, left being into this patch; the sum of the two is parallel to C' by
+/// G1. The neighbour's C is reversed, its D reversed and negated, both bit for bit. The outer sides 1 and 2 are cubics,
 /// recorded by `gregory::edge`.
 ///
 /// # Panics
@@ -175,6 +188,13 @@ fn combine<const K: usize>(terms: [(f64, &Coefficients); K]) -> Coefficients {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn generation_repeats_bit_for_bit() {
+        for n in POSSIBLE_VALENCES {
+            assert_eq!(&generate(n), generated(n));
+        }
+    }
 
     #[test]
     fn mirrors_are_involutions_that_keep_their_axis() {

@@ -1,9 +1,9 @@
 //! Eigenvectors of Catmull-Clark subdivision around a vertex, one Fourier mode at a time, on all points of a net.
 //!
-//! A ring with `E_j = e exp(i w (j - 1/2))` and `F_j = f exp(i w j)`, `w = 2 pi k / n`, keeps that form under subdivision and around
-//! the vertex. Angles are counted from the bisector of the patch, whose reflection then is complex conjugation. A value z
-//! is held as the real number Re z + Im z (Hartley's transform): the surface of such a patch is a real one, of which the
-//! part symmetric in u and v is Re and the antisymmetric part is Im.
+//! A ring with `E_j = e exp(i w (j - 1/2))` and `F_j = f exp(i w j)`, `w = 2 pi k / n`, keeps that form under
+//! subdivision and around the vertex. Angles are counted from the bisector of the patch, whose reflection then is
+//! complex conjugation. A value z is held as the real number Re z + Im z (Hartley's transform): the surface of such a
+//! patch is a real one, of which the part symmetric in u and v is Re and the antisymmetric part is Im.
 
 use crate::angle::turn;
 
@@ -72,7 +72,8 @@ impl Mode {
         [1.0, larger, product / larger].map(of).to_vec()
     }
 
-    /// The points of patch 0's net: 2n+8 values V, E0, F0, .., O0..O6, the O such that a step multiplies them by lambda as well.
+    /// The points of patch 0's net: 2n+8 values V, E0, F0, .., O0..O6, the O such that a step multiplies them by lambda
+    /// as well.
     pub(super) fn net(self, at: Eigenvector) -> Vec<f64> {
         let sum = |(re, im): (f64, f64), (cos, sin): (f64, f64)| re * (cos + sin) + im * (cos - sin);
         let mut net = vec![at.vertex];
@@ -96,9 +97,10 @@ impl Mode {
 
     /// The second ring from `lambda x = (regular subdivision rules of x and the first ring)`.
     ///
-    /// Of mode n/4 one eigenvalue is 1/8, which is one of the second ring itself: multiples of its eigenvector may be added, and the shortest
-    /// second ring is taken. The choice shows at n = 8 alone: at n = 4 every net has the bicubic as its fairest surface, and modes
-    /// beyond the second have the columns of O themselves as the fairest surface of such an eigenvector.
+    /// Of mode n/4 one eigenvalue is 1/8, which is one of the second ring itself: multiples of its eigenvector may be
+    /// added, and the shortest second ring is taken. The choice shows at n = 8 alone: at n = 4 every net has the
+    /// bicubic as its fairest surface, and modes beyond the second have the columns of O themselves as the fairest
+    /// surface of such an eigenvector.
     fn outer(self, at: Eigenvector) -> Outer {
         let Eigenvector { lambda, vertex, edge, face } = at;
         let (c1, c2) = (self.phase(1).0, self.phase(2).0);
@@ -111,8 +113,8 @@ impl Mode {
         self.outer_beyond(at, ((lambda - 0.0625) * first_ring + self.beside_from_ring(at).0 / 32.0) / gap)
     }
 
-    /// What the first ring and V add to O2, an edge point: `lambda O2 = 3/8 (E0 + F0) + 1/16 (V + E1 + O1 + O2)`, angles counted
-    /// from spoke 0.
+    /// What the first ring and V add to O2, an edge point: `lambda O2 = 3/8 (E0 + F0) + 1/16 (V + E1 + O1 + O2)`,
+    /// angles counted from spoke 0.
     fn beside_from_ring(self, Eigenvector { vertex, edge, face, .. }: Eigenvector) -> (f64, f64) {
         let ((c1, s1), (c2, s2)) = (self.phase(1), self.phase(2));
         (0.375 * (edge + face * c1) + (vertex + edge * c2) / 16.0, 0.375 * face * s1 + edge * s2 / 16.0)
@@ -123,10 +125,12 @@ impl Mode {
         let Eigenvector { lambda, vertex, edge, face } = at;
         let (c1, s1) = self.phase(1);
         let known = self.beside_from_ring(at);
-        // Equal sectors of valence 4 have the eigenvalue 1/16: again the fairest surface is the bicubic, whatever O2 is.
+        // Equal sectors of valence 4 have the eigenvalue 1/16: again the fairest surface is the bicubic, whatever O2
+        // is.
         let over = |x: f64| if (lambda - 0.0625).abs() < RESONANCE { 0.0 } else { x / (lambda - 0.0625) };
         let beside = (over(known.0 + beyond_edge / 16.0), over(known.1));
-        // O3 is a vertex point: lambda O3 = 9/16 F0 + 3/32 (E0 + E1 + O2 + O4) + 1/64 (V + O1 + O5 + O3), from the bisector.
+        // O3 is a vertex point: lambda O3 = 9/16 F0 + 3/32 (E0 + E1 + O2 + O4) + 1/64 (V + O1 + O5 + O3), from the
+        // bisector.
         let around = edge * c1 + (beside.0 * c1 + beside.1 * s1);
         let corners = vertex + 2.0 * beyond_edge * c1;
         let beyond_face = (0.5625 * face + 0.1875 * around + corners / 64.0) / (lambda - 1.0 / 64.0);

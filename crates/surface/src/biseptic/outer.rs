@@ -6,7 +6,8 @@ use super::{Coefficients, combine, transposed};
 use crate::bspline;
 use crate::net::NetKind;
 
-/// Columns of a net of `valence`, with the coefficients with i >= 5 or j >= 5 those of the bicubic B-spline and zeros elsewhere.
+/// Columns of a net of `valence`, with the coefficients with i >= 5 or j >= 5 those of the bicubic B-spline and zeros
+/// elsewhere.
 pub(super) fn fixed_columns(valence: u32) -> Vec<Coefficients> {
     let kind = NetKind::Interior { valence };
     let raised = raised_bspline();
@@ -34,8 +35,8 @@ fn raised_bspline() -> [[f64; 4]; 8] {
     })
 }
 
-/// Fills in the columns of O0..O6, each alone. O0, O1, O2 move the two patches beside spoke 0 and no other: coefficients
-/// with i <= 2 stay zero. O3 moves one patch only. O4, O5, O6 mirror O2, O1, O0.
+/// Fills in the columns of O0..O6, each alone. O0, O1, O2 move the two patches beside spoke 0 and no other:
+/// coefficients with i <= 2 stay zero. O3 moves one patch only. O4, O5, O6 mirror O2, O1, O0.
 pub(super) fn fill_outer_columns(columns: &mut [Coefficients], conditions: &SpokeConditions) {
     let first = columns.len() - 7;
     let free = |least_j: usize| -> Vec<usize> { (least_j..=4).flat_map(|j| [3 + 8 * j, 4 + 8 * j]).collect() };

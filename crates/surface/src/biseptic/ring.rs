@@ -1,5 +1,5 @@
-//! The columns of all points: the fairest surfaces around the vertex for the eigenvectors of subdivision, turned into responses to
-//! single points.
+//! The columns of all points: the fairest surfaces around the vertex for the eigenvectors of subdivision, turned into
+//! responses to single points.
 
 use glam::{DMat3, DVec3};
 
@@ -85,8 +85,9 @@ fn weighted_sum(columns: &[Coefficients], weights: &[f64]) -> Coefficients {
     sum
 }
 
-/// The conditions across spoke 0 on a patch of this mode. Seen from the spoke its coefficients are turned by half a sector, and those of
-/// the other patch are their conjugates: the even half is the real part, the odd half the imaginary part.
+/// The conditions across spoke 0 on a patch of this mode. Seen from the spoke its coefficients are turned by half a
+/// sector, and those of the other patch are their conjugates: the even half is the real part, the odd half the
+/// imaginary part.
 fn spoke_conditions(mode: Mode, conditions: &SpokeConditions) -> Vec<Condition> {
     let even = conditions.even.iter().map(|weights| (real_part(mode, weights), 0.0));
     let odd = conditions.odd.iter().map(|weights| (imaginary_part(mode, weights), 0.0));

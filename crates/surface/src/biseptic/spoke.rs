@@ -3,8 +3,8 @@
 use super::correspondence::Correspondence;
 use super::{Coefficients, combine};
 
-/// Conditions G0 to G2 of the [derivation](super#derivation) on the even and the odd half of a pair of patches: weights on the
-/// coefficients of the patch left of the spoke, whose sums must vanish.
+/// Conditions G0 to G2 of the [derivation](super#derivation) on the even and the odd half of a pair of patches: weights
+/// on the coefficients of the patch left of the spoke, whose sums must vanish.
 pub(super) struct SpokeConditions {
     pub(super) even: Vec<Coefficients>,
     pub(super) odd: Vec<Coefficients>,

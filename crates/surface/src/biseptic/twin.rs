@@ -1,12 +1,12 @@
 //! The shader stages of biseptic patches on the host, in f32 and in the shaders' order of operations.
 //!
 //! # Layout between the stages
-//! A control stage writes at most 32 vertices, so each carries two of the 64 points (report, section 4.3): vertex w holds points
-//! `2w` and `2w+1`, neighbours along u. Row j of the patch is vertices `4j..4j+4`.
+//! A control stage writes at most 32 vertices, so each carries two of the 64 points (report, section 4.3): vertex w
+//! holds points `2w` and `2w+1`, neighbours along u. Row j of the patch is vertices `4j..4j+4`.
 //!
-//! Points are relative to the net's vertex V, whose position goes along once per patch. Differences of nearby points are
-//! exact or nearly so, whence derivatives and curvatures lose no bits where the model lies far from the origin, and the rounded weights need
-//! not sum to 1: V itself is not weighed.
+//! Points are relative to the net's vertex V, whose position goes along once per patch. Differences of nearby points
+//! are exact or nearly so, whence derivatives and curvatures lose no bits where the model lies far from the origin, and
+//! the rounded weights need not sum to 1: V itself is not weighed.
 
 use glam::Vec3;
 
@@ -48,8 +48,8 @@ pub struct SecondDerivatives {
     pub dvv: Vec3,
 }
 
-/// The control stage: 64 rows of weights ([`patch`](super::patch) rounded to f32, row after row) times a net, each summed from the last point to the
-/// first.
+/// The control stage: 64 rows of weights ([`patch`](super::patch) rounded to f32, row after row) times a net, each
+/// summed from the last point to the first.
 ///
 /// # Panics
 /// If there are not 64 weights per net point.
@@ -102,7 +102,8 @@ pub fn second_derivatives(patch: &ControlPoints, u: f32, v: f32) -> SecondDeriva
     }
 }
 
-/// The record of a spoke: 16 rows of weights ([`edge`](super::edge) rounded to f32) times a net, summed from the last point to the first.
+/// The record of a spoke: 16 rows of weights ([`edge`](super::edge) rounded to f32) times a net, summed from the last
+/// point to the first.
 ///
 /// # Panics
 /// If there are not 16 weights per net point.
