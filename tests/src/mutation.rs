@@ -22,7 +22,7 @@ impl Mutation {
     }
 }
 
-/// All patch stages, compiled with the mutations.
+/// All stages that draw, compiled with the mutations.
 ///
 /// # Panics
 /// If a mutation does not fit its file, or the changed shaders do not compile, or no shader comes out different.
@@ -34,7 +34,8 @@ pub fn mutated(mutations: &[Mutation]) -> ShaderSet {
     };
     let mut set = ShaderSet::embedded();
     let mut different = 0;
-    for shader in SHADERS.iter().filter(|shader| shader.path.starts_with("patch/")) {
+    let drawing = |path: &str| path.starts_with("patch/") || path.starts_with("shade/");
+    for shader in SHADERS.iter().filter(|shader| drawing(shader.path)) {
         let text = load(shader.path).expect("an embedded shader has its source");
         let desc = CompileDesc {
             name: shader.path,

@@ -1,5 +1,7 @@
 //! All cases that need more than one crate, in one program so that they link once and share a device.
 
+mod golden;
+mod pictures;
 mod sampling;
 mod subdivision;
 mod watertight;

@@ -2,7 +2,10 @@
 
 use clap::{Parser, Subcommand};
 
+mod bless;
 mod cages;
+mod cargo;
+mod pictures;
 
 /// Chores of the repository.
 #[derive(Parser)]
@@ -14,17 +17,23 @@ struct Arguments {
 
 #[derive(Subcommand)]
 enum Verb {
+    /// Accept what the golden tests draw as the new goldens.
+    Bless,
     /// Regenerate the shipped cages in assets/cages.
     Cages {
         /// Write nothing; fail if a committed file differs from what would be written.
         #[arg(long)]
         check: bool,
     },
+    /// Draw the pictures of README.md and docs anew.
+    Pictures,
 }
 
 fn main() -> anyhow::Result<()> {
     match Arguments::parse().verb {
+        Verb::Bless => bless::run(),
         Verb::Cages { check: false } => cages::write(),
         Verb::Cages { check: true } => cages::check(),
+        Verb::Pictures => pictures::run(),
     }
 }

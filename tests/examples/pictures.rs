@@ -1,0 +1,71 @@
+//! Draws the pictures of README.md and docs: `cargo xtask pictures`.
+
+use std::path::{Path, PathBuf};
+
+use glam::DVec3;
+use osculate::{Camera, Device, DeviceDesc, Engine, RenderDesc, Shade, Tessellation};
+use osculate_compare::Picture;
+use osculate_tests::{legend, picture, zoo};
+
+fn main() {
+    let engine = Engine::new(Device::new(&DeviceDesc::default()).unwrap_or_else(|error| panic!("{error}")));
+    write("dragon", &front(&engine));
+    for &shade in Shade::ALL {
+        write(&format!("shade-{}", shade.name()), &dragon(&engine, [288, 240], |desc| show(desc, shade)));
+    }
+    write("cage", &dragon(&engine, [288, 240], |desc| desc.cage = true));
+    for swatch in legend::swatches() {
+        write(&swatch.name, &swatch.draw(&engine));
+    }
+}
+
+/// What the command line of docs/shading.md shows in that shade.
+fn show(desc: &mut RenderDesc, shade: Shade) {
+    desc.shade = shade;
+    match shade {
+        Shade::Wireframe => desc.tessellation = Tessellation::uniform(1.0),
+        Shade::Peer => (desc.samples, desc.background) = (1, [0.1, 0.1, 0.1, 1.0]),
+        _ => {}
+    }
+}
+
+fn write(name: &str, picture: &Picture) {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/images");
+    let path: PathBuf = folder.join(format!("{name}.png"));
+    picture.write(&path).unwrap_or_else(|error| panic!("{error}"));
+    println!("docs/images/{name}.png");
+}
+
+/// The dragon as docs/shading.md has it: `--camera 2.57,2.02,3.28:0.13,1.06,-0.22:0,1,0:40`.
+fn dragon(engine: &Engine, size: [u32; 2], change: impl FnOnce(&mut RenderDesc)) -> Picture {
+    let cage = zoo::shipped("dragon");
+    let (eye, at) = (DVec3::new(2.57, 2.02, 3.28), DVec3::new(0.13, 1.06, -0.22));
+    let camera =
+        Camera::look_at(eye, at, DVec3::Y, 40f64.to_radians(), cage.bounds()).unwrap_or_else(|error| panic!("{error}"));
+    picture::draw(engine, &cage, size, |desc| {
+        desc.camera = camera;
+        change(desc);
+    })
+}
+
+/// The cage over the surface beside the surface alone, at twice the size and halved, which smooths outlines further.
+fn front(engine: &Engine) -> Picture {
+    let [left, right] = [true, false].map(|cage| dragon(engine, [960, 840], |desc| desc.cage = cage));
+    let rows = left.rgba().chunks(4 * 960).zip(right.rgba().chunks(4 * 960));
+    let wide = Picture::new(1920, 840, rows.flat_map(|(left, right)| [left, right].concat()).collect());
+    halved(&wide.unwrap_or_else(|error| panic!("{error}")))
+}
+
+/// The picture at half its size: each pixel is the mean of four, in linear light.
+fn halved(picture: &Picture) -> Picture {
+    let size = picture.size();
+    let (width, pixels) = (size.width as usize, picture.rgba().as_chunks::<4>().0);
+    let linear = |byte: u8| (f64::from(byte) / 255.0).powf(2.2);
+    let mean = |first: usize, c: usize| {
+        let sum: f64 = [first, first + 1, first + width, first + width + 1].iter().map(|&i| linear(pixels[i][c])).sum();
+        ((sum / 4.0).powf(1.0 / 2.2) * 255.0).round() as u8
+    };
+    let firsts = (0..size.height as usize / 2).flat_map(|y| (0..width / 2).map(move |x| 2 * y * width + 2 * x));
+    let rgba = firsts.flat_map(|first| std::array::from_fn::<u8, 4, _>(|c| mean(first, c))).collect();
+    Picture::new(size.width / 2, size.height / 2, rgba).unwrap_or_else(|error| panic!("{error}"))
+}

@@ -1,0 +1,297 @@
+//! What pictures show, judged by numbers: no leaks, lines where edges are, backgrounds, refusals.
+
+use glam::{DVec2, DVec3};
+use osculate::{
+    Cage, Camera, CapturedVertex, EngineError, GpuError, RenderDesc, Shade, Surface, SurfaceDesc, Tessellation, render,
+};
+use osculate_compare::Picture;
+use osculate_tests::mutation::{Mutation, mutated};
+use osculate_tests::picture::{camera, draw, draw_surfaces};
+use osculate_tests::{gpu, gpu_with_shaders, zoo};
+
+const MAGENTA: [f32; 4] = [1.0, 0.0, 1.0, 1.0];
+const MAGENTA_BYTES: [u8; 4] = [255, 0, 255, 255];
+
+fn at(picture: &Picture, x: u32, y: u32) -> [u8; 4] {
+    let first = 4 * (y as usize * picture.size().width as usize + x as usize);
+    picture.rgba()[first..first + 4].try_into().unwrap()
+}
+
+fn luma([r, g, b, _]: [u8; 4]) -> f64 {
+    0.2126 * f64::from(r) + 0.7152 * f64::from(g) + 0.0722 * f64::from(b)
+}
+
+/// Pixels of the background that no path over such pixels joins to the border.
+fn leaks(picture: &Picture) -> usize {
+    let (width, height) = (picture.size().width as usize, picture.size().height as usize);
+    let mut open: Vec<bool> = picture.pixels().map(|pixel| pixel == MAGENTA_BYTES).collect();
+    let border = |i: usize| [0, width - 1].contains(&(i % width)) || i < width || i >= width * (height - 1);
+    let mut stack: Vec<usize> = (0..open.len()).filter(|&i| border(i)).collect();
+    while let Some(i) = stack.pop() {
+        if !std::mem::replace(&mut open[i], false) {
+            continue;
+        }
+        let (x, y) = (i % width, i / width);
+        let across = [(x > 0, i.wrapping_sub(1)), (x + 1 < width, i + 1)];
+        let along = [(y > 0, i.wrapping_sub(width)), (y + 1 < height, i + width)];
+        stack.extend(across.into_iter().chain(along).filter(|&(inside, _)| inside).map(|(_, next)| next));
+    }
+    open.into_iter().filter(|&left| left).count()
+}
+
+#[test]
+fn the_fill_finds_a_pixel_that_is_cut_off() {
+    let around = [0, 0, 0, 255];
+    let mut pixels = [MAGENTA_BYTES; 25];
+    for i in [6, 7, 8, 11, 13, 16, 17, 18] {
+        pixels[i] = around;
+    }
+    assert_eq!(leaks(&Picture::new(5, 5, pixels.concat()).unwrap()), 1);
+    pixels[12] = around;
+    assert_eq!(leaks(&Picture::new(5, 5, pixels.concat()).unwrap()), 0);
+}
+
+const DIRECTIONS: [[f64; 3]; 4] = [[1.0, 0.75, 1.5], [-0.3, -1.0, 0.2], [-1.0, 0.1, 0.05], [0.0, 0.9, 0.7]];
+
+/// Closed cages without holes cover the middle of the picture without a gap, and from inside nothing of the background is seen.
+#[test]
+fn closed_surfaces_do_not_leak() {
+    let gpu = gpu();
+    let closed: Vec<_> =
+        ["cube", "ngon", "triangles", "uvsphere"].into_iter().map(zoo::shipped).chain([zoo::pole(200)]).collect();
+    for (cage, direction) in closed.iter().flat_map(|cage| DIRECTIONS.map(|direction| (cage, direction))) {
+        for level in [1.0, 7.0] {
+            let picture = draw(&gpu, cage, [192, 192], |desc| {
+                desc.camera = camera(cage, direction, 2.0, 40.0);
+                (desc.samples, desc.background) = (1, MAGENTA);
+                desc.tessellation = Tessellation::uniform(level);
+            });
+            assert!(picture.pixels().any(|pixel| pixel == MAGENTA_BYTES), "the outline is in the picture");
+            assert_eq!(leaks(&picture), 0, "{cage:?} from {direction:?} at level {level}");
+        }
+    }
+}
+
+#[test]
+fn from_inside_nothing_of_the_background_is_seen() {
+    let gpu = gpu();
+    let cage = zoo::shipped("dragon");
+    // A point in the chest.
+    let eye = cage.bounds().center() + DVec3::new(0.0, -0.05, 0.1) * cage.bounds().half_diagonal();
+    let surface = Surface::new(&gpu, &cage, &SurfaceDesc::default()).unwrap();
+    for towards in [DVec3::Z, DVec3::NEG_Z, DVec3::X, DVec3::new(0.1, 1.0, 0.3)] {
+        let mut camera = Camera::look_at(eye, eye + towards, DVec3::new(0.2, 0.5, 0.1), 1.4, cage.bounds()).unwrap();
+        camera.near = 1e-3 * cage.bounds().half_diagonal();
+        let desc = RenderDesc { camera, samples: 1, background: MAGENTA, ..RenderDesc::fit(&cage, [256, 256]) };
+        let picture = draw_surfaces(&gpu, &[&surface], &desc);
+        let seen = picture.pixels().filter(|&pixel| pixel == MAGENTA_BYTES).count();
+        assert_eq!(seen, 0, "towards {towards}");
+    }
+}
+
+/// Patches that shrink towards their interior leave gaps along their edges.
+#[test]
+fn a_gap_is_a_leak() {
+    let mutation = Mutation {
+        path: "include/evaluation_stage.glsl",
+        from: "gl_Position = clip_position(point.position);",
+        to: "gl_Position = clip_position(point.position + 0.02 * float(patch_id % 3u) * point.normal);",
+    };
+    let gpu = gpu_with_shaders(mutated(&[mutation]));
+    let cage = zoo::shipped("triangles");
+    let picture = draw(&gpu, &cage, [256, 256], |desc| {
+        // With the far side cut away, a gap shows the background.
+        desc.camera = camera(&cage, DIRECTIONS[0], 2.0, 40.0);
+        desc.camera.far = (cage.bounds().center() - desc.camera.eye).length();
+        (desc.samples, desc.background) = (1, MAGENTA);
+    });
+    assert!(leaks(&picture) > 0);
+}
+
+#[test]
+fn corners_have_the_colour_of_the_background() {
+    let gpu = gpu();
+    let cage = zoo::shipped("cube");
+    for samples in [1, 4] {
+        let picture = draw(&gpu, &cage, [64, 48], |desc| {
+            desc.samples = samples;
+            // 55/255, 188/255 and 1 as sRGB.
+            desc.background = [0.038_204_4, 0.502_886_5, 1.0, 1.0];
+        });
+        for (x, y) in [(0, 0), (63, 0), (0, 47), (63, 47)] {
+            assert_eq!(at(&picture, x, y), [55, 188, 255, 255]);
+        }
+        assert_ne!(at(&picture, 32, 24), [55, 188, 255, 255]);
+    }
+}
+
+/// Laid over a colour, a picture before a transparent background is the picture before that colour.
+#[test]
+fn transparent_backgrounds_leave_no_fringe() {
+    let gpu = gpu();
+    let cage = zoo::shipped("twohole");
+    let clear = draw(&gpu, &cage, [160, 120], |desc| desc.background = [0.0; 4]);
+    let linear = |c: u8| (f64::from(c) / 255.0).powf(2.2);
+    let byte = |c: f64| c.powf(1.0 / 2.2) * 255.0;
+    for behind in [0.0, 1.0] {
+        let solid = draw(&gpu, &cage, [160, 120], |desc| desc.background = [behind, behind, behind, 1.0]);
+        let mut edges = 0;
+        for (clear, solid) in clear.pixels().zip(solid.pixels()) {
+            let alpha = f64::from(clear[3]) / 255.0;
+            edges += usize::from(alpha > 0.0 && alpha < 1.0);
+            for c in 0..3 {
+                let laid = byte(linear(clear[c]) * alpha + f64::from(behind) * (1.0 - alpha));
+                assert!((laid - f64::from(solid[c])).abs() < 5.0, "{clear:?} over {behind}: {solid:?}");
+            }
+        }
+        assert!(edges > 100, "{edges}");
+    }
+}
+
+/// Where a point lies in a picture of that size, in pixels.
+fn project(camera: &Camera, size: [u32; 2], p: DVec3) -> DVec2 {
+    let forward = (camera.at - camera.eye).normalize();
+    let right = forward.cross(camera.up).normalize();
+    let [x, y, z] = [right, right.cross(forward), forward].map(|axis| axis.dot(p - camera.eye));
+    let [width, height] = size.map(f64::from);
+    let scale = 0.5 * height / (camera.fovy / 2.0).tan() / z;
+    DVec2::new(0.5 * width + x * scale, 0.5 * height - y * scale)
+}
+
+/// Lines lie on the edges of the triangles that transform feedback captures, and nowhere else.
+#[test]
+fn wireframe_lines_are_the_edges_of_triangles() {
+    let gpu = gpu();
+    let cage = zoo::grid(3, 2);
+    let surface = Surface::new(&gpu, &cage, &SurfaceDesc::default()).unwrap();
+    let size = [480, 400];
+    let tessellation = Tessellation::uniform(2.0);
+    let view = camera(&cage, [0.05, 1.0, 0.1], 2.6, 45.0);
+    let desc = |shade| RenderDesc { shade, camera: view, tessellation, ..RenderDesc::fit(&cage, size) };
+    let [plain, wire] = [Shade::Lit, Shade::Wireframe].map(|shade| draw_surfaces(&gpu, &[&surface], &desc(shade)));
+    // How much darker the lines make the pixels about a point: at most 1.
+    let darkened = |p: DVec3| {
+        let q = project(&view, size, p);
+        let near = |dx: i32, dy: i32| ((q.x as i32 + dx) as u32, (q.y as i32 + dy) as u32);
+        let around = (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy)));
+        let ratio = |(x, y)| 1.0 - luma(at(&wire, x, y)) / luma(at(&plain, x, y));
+        around.map(|(dx, dy)| ratio(near(dx, dy))).fold(0.0, f64::max)
+    };
+    let mut captured = Vec::new();
+    let keep = |vertices: &[CapturedVertex]| {
+        captured.extend_from_slice(vertices);
+        Ok::<(), EngineError>(())
+    };
+    surface.capture(&tessellation, keep).unwrap();
+    let place = |i: usize| surface.space().leave(captured[i].position.into());
+    let mut triangles = 0;
+    for first in (0..captured.len()).step_by(3) {
+        let [a, b, c] = [0, 1, 2].map(|i| place(first + i));
+        // An edge of the boundary has but one triangle, so half of the ink.
+        for middle in [(a + b) / 2.0, (b + c) / 2.0, (c + a) / 2.0] {
+            assert!(darkened(middle) > 0.25, "no line at {middle}: {}", darkened(middle));
+        }
+        let centre = (a + b + c) / 3.0;
+        assert!(darkened(centre) < 0.1, "a line at {centre}: {}", darkened(centre));
+        triangles += 1;
+    }
+    assert!(triangles >= 4 * 6 * 8, "{triangles}");
+}
+
+fn changed(a: &Picture, b: &Picture) -> usize {
+    a.pixels().zip(b.pixels()).filter(|(a, b)| a != b).count()
+}
+
+/// More lines at a higher level, until they would cover everything: then they fade.
+#[test]
+fn wireframe_lines_grow_with_the_level_and_fade_when_dense() {
+    let gpu = gpu();
+    let cage = zoo::shipped("twohole");
+    let lines = |level, size| {
+        let [plain, wire] = [Shade::Lit, Shade::Wireframe].map(|shade| {
+            let tessellation = Tessellation::uniform(level);
+            draw(&gpu, &cage, size, |desc| (desc.shade, desc.tessellation) = (shade, tessellation))
+        });
+        let surface = plain.pixels().filter(|&pixel| pixel != at(&plain, 0, 0)).count();
+        let dark = wire.pixels().zip(plain.pixels()).filter(|&(wire, plain)| luma(wire) < 0.7 * luma(plain)).count();
+        dark as f64 / surface as f64
+    };
+    let [coarse, fine] = [1.0, 3.0].map(|level| lines(level, [480, 400]));
+    assert!(coarse > 0.02 && fine > 1.5 * coarse, "{coarse} {fine}");
+    let dense = lines(32.0, [96, 80]);
+    assert!(dense < 0.01, "{dense}");
+}
+
+#[test]
+fn the_cage_is_drawn_in_its_colour_and_changes_nothing_else() {
+    let gpu = gpu();
+    let cage = zoo::shipped("twohole");
+    let [plain, overlaid] = [false, true].map(|shown| draw(&gpu, &cage, [256, 256], |desc| desc.cage = shown));
+    let orange = |[r, g, b, _]: [u8; 4]| r > 220 && (100..170).contains(&g) && b < 90;
+    assert_eq!(plain.pixels().filter(|&pixel| orange(pixel)).count(), 0);
+    assert!(overlaid.pixels().filter(|&pixel| orange(pixel)).count() > 300);
+    let all = 256 * 256;
+    assert!((all / 100..all / 6).contains(&changed(&plain, &overlaid)), "{}", changed(&plain, &overlaid));
+}
+
+#[test]
+fn the_same_picture_has_the_same_bits() {
+    let gpu = gpu();
+    let cage = zoo::shipped("shell");
+    for &shade in Shade::ALL {
+        let [a, b] = [0, 1].map(|_| draw(&gpu, &cage, [160, 128], |desc| (desc.shade, desc.cage) = (shade, true)));
+        assert_eq!(changed(&a, &b), 0, "{shade:?}");
+    }
+}
+
+/// Seen from twice as far a cage of twice the size is the same picture, curvature colours included.
+#[test]
+fn the_size_of_a_cage_does_not_matter() {
+    let gpu = gpu();
+    let cage = zoo::shipped("twohole");
+    for shade in [Shade::Lit, Shade::Curvature, Shade::Wireframe] {
+        let picture = |cage: &Cage| draw(&gpu, cage, [128, 128], |desc| (desc.shade, desc.samples) = (shade, 1));
+        let expected = picture(&cage);
+        for scale in [1e-6, 0.7, 1.3, 1e6] {
+            let scaled = picture(&zoo::moved(&cage, scale, DVec3::ZERO));
+            let far = |(a, b): &([u8; 4], [u8; 4])| (0..3).any(|c| a[c].abs_diff(b[c]) > 3);
+            let different = expected.pixels().zip(scaled.pixels()).filter(far).count();
+            assert!(different < 128 * 128 / 200, "{shade:?} x {scale}: {different}");
+        }
+    }
+}
+
+/// All points in one place: no surface is seen, and nothing goes wrong.
+#[test]
+fn a_cage_without_extent_shows_the_background() {
+    let gpu = gpu();
+    let cage = zoo::moved(&zoo::shipped("ngon"), 0.0, DVec3::splat(3.0));
+    for &shade in Shade::ALL {
+        let picture = draw(&gpu, &cage, [64, 64], |desc| {
+            (desc.shade, desc.cage, desc.background) = (shade, true, MAGENTA);
+        });
+        assert!(picture.pixels().all(|pixel| pixel == MAGENTA_BYTES), "{shade:?}");
+    }
+}
+
+#[test]
+fn pictures_of_impossible_sizes_are_refused() {
+    let gpu = gpu();
+    let cage = zoo::shipped("cube");
+    let surface = Surface::new(&gpu, &cage, &SurfaceDesc::default()).unwrap();
+    let refusal = |size, samples| {
+        let desc = RenderDesc { samples, ..RenderDesc::fit(&cage, size) };
+        render(&gpu, &[&surface], &desc).map(drop).unwrap_err()
+    };
+    for size in [[0, 4], [4, 0], [0, 0]] {
+        let error = refusal(size, 4);
+        assert!(error.to_string().contains("at least one pixel"), "{error}");
+    }
+    let huge = refusal([u32::MAX, 4], 1);
+    assert!(matches!(huge, EngineError::Gpu(GpuError::Limit { .. })), "{huge}");
+    assert!(huge.to_string().contains("limit"), "{huge}");
+    let many = refusal([4, 4], 3);
+    assert!(matches!(many, EngineError::Unsupported { .. }), "{many}");
+    let smallest = render(&gpu, &[&surface], &RenderDesc::fit(&cage, [1, 1])).unwrap();
+    assert_eq!(smallest.rgba.len(), 4);
+}
