@@ -12,6 +12,18 @@ pub enum PlanError {
         /// How many are possible.
         limit: u64,
     },
+    /// Vertices or faces with very many edges ask for too much memory.
+    #[error(
+        "the cage has a vertex or face with {valence} edges; tables for such take {count} numbers, the limit is {limit}: spread the edges over several vertices"
+    )]
+    HighValence {
+        /// The highest valence after the first step.
+        valence: u32,
+        /// Numbers needed.
+        count: u64,
+        /// Most numbers.
+        limit: u64,
+    },
     /// Nothing is left to draw.
     #[error(
         "no face is left to draw: all {faces} faces are holes or touch the boundary under the boundary rule `none`; use --boundary edge-and-corner"

@@ -1,7 +1,7 @@
 //! Where a patch lies on the base mesh: every final quad is a child of a child of a base face, numbered by half-edges, so its place follows from its
 //! number.
 
-use osculate_cage::Cage;
+use osculate_cage::{Cage, sub_faces};
 
 /// A base quad (`sub` = -1), or the child quad at corner `sub` of any other face. Its unit square has (0,0), (1,0), (1,1), (0,1) at the corners of the quad,
 /// or at the vertex, the middle of the edge to the next vertex, the centre, and the middle of the edge to the previous vertex.
@@ -94,12 +94,11 @@ impl Locator {
             return None;
         }
         let corners = self.corners(face);
-        let is_quad = corners == 4;
-        if is_quad != (sub_face.sub == -1) || (!is_quad && !(0..corners as i32).contains(&sub_face.sub)) {
+        if !sub_faces(corners as usize).contains(&sub_face.sub) {
             return None;
         }
         let offset = self.face_offsets[face as usize];
-        let (first, uv) = if is_quad {
+        let (first, uv) = if corners == 4 {
             let (corner, uv) = into_child(st);
             (offset + corner, uv)
         } else {
@@ -115,11 +114,7 @@ impl Locator {
 
     /// The sub-faces of a face, in order.
     pub fn sub_faces(&self, face: u32) -> impl Iterator<Item = SubFace> + use<> {
-        let range = match self.corners(face) {
-            4 => -1..0,
-            corners => 0..corners as i32,
-        };
-        range.map(move |sub| SubFace { face, sub })
+        sub_faces(self.corners(face) as usize).map(move |sub| SubFace { face, sub })
     }
 }
 

@@ -1,12 +1,14 @@
 //! From a cage to everything the device needs to know about its connectivity.
 
+use std::collections::BTreeSet;
+
 use osculate_cage::{BoundaryRule, Cage};
 use rayon::prelude::*;
 
 use crate::gather::PatchNets;
 use crate::lists::PatchOrder;
 use crate::nets::FinalMesh;
-use crate::patches::Tag;
+use crate::patches::{LIST_VALENCES, Tag};
 use crate::records::{RecordSources, assign};
 use crate::weights::WeightTable;
 use crate::{Connectivity, Locator, MatrixSource, PatchList, PatchRecord, PlanError, QuadConnectivity, RefineTables};
@@ -63,7 +65,7 @@ impl SurfacePlan {
         let rule = desc.boundary.or(cage.boundary_rule()).unwrap_or_default();
         let steps = if cage.is_quads() { 1 } else { 2 };
         check_size(cage, steps)?;
-        let drawn = drawn_faces(cage, rule);
+        let drawn = cage.drawn_faces(rule);
         if !drawn.contains(&true) {
             return Err(PlanError::NothingToDraw { faces: cage.face_count() });
         }
@@ -126,11 +128,6 @@ impl SurfacePlan {
         self.coefficients.len()
     }
 
-    /// The list a patch is in.
-    pub fn list_of(&self, patch: u32) -> Option<&PatchList> {
-        self.lists.iter().find(|list| (list.first_patch..list.first_patch + list.count).contains(&patch))
-    }
-
     /// Bytes of the plan's tables on the device.
     pub fn bytes(&self) -> usize {
         let tables: usize = self.levels.iter().map(RefineTables::bytes).sum();
@@ -146,20 +143,6 @@ impl SurfacePlan {
     }
 }
 
-/// Faces that are drawn: not holes, and under the rule `none` not at the boundary.
-fn drawn_faces(cage: &Cage, rule: BoundaryRule) -> Vec<bool> {
-    let mut drawn = vec![true; cage.face_count()];
-    for &hole in &cage.tags().holes {
-        drawn[hole as usize] = false;
-    }
-    if rule == BoundaryRule::None {
-        for (face, drawn) in drawn.iter_mut().enumerate() {
-            *drawn &= !cage.face(face).iter().any(|&v| cage.topology().is_boundary_vertex(v));
-        }
-    }
-    drawn
-}
-
 /// Refuses cages whose final mesh could overflow 32-bit numbers: half-edges grow by four per step, and every final quad has four slots for records.
 fn check_size(cage: &Cage, steps: u32) -> Result<(), PlanError> {
     let final_quads = (cage.topology().half_edge_count() as u64) << (2 * (steps - 1));
@@ -170,9 +153,29 @@ fn check_size(cage: &Cage, steps: u32) -> Result<(), PlanError> {
     Ok(())
 }
 
-/// Refuses cages whose nets could overflow 32-bit numbers. Those about a vertex grow with the square of its valence, so few faces may need many points.
+/// Refuses cages whose nets could overflow 32-bit numbers, and those with vertices of so high a valence that their nets, which grow with its square, or
+/// their changes of basis, of which a boundary vertex has one per face, would fill the memory of most machines.
 fn check_nets(tags: &[Tag]) -> Result<(), PlanError> {
-    let about_vertex = |valence: u64| valence * (2 * valence + 8);
-    let (count, limit) = (tags.par_iter().map(|tag| about_vertex(tag.valence().into())).sum(), u32::MAX.into());
-    if count > limit { Err(PlanError::TooLarge { what: "points of nets", count, limit }) } else { Ok(()) }
+    let points = |valence: u32| u64::from(valence) * u64::from(2 * valence + 8);
+    let (count, limit) = (tags.par_iter().map(|tag| points(tag.valence())).sum(), u32::MAX.into());
+    if count > limit {
+        return Err(PlanError::TooLarge { what: "points of nets", count, limit });
+    }
+    let high = |tag: &&Tag| !LIST_VALENCES.contains(&tag.valence());
+    let points = tags.par_iter().filter(high).map(|tag| points(tag.valence())).sum::<u64>();
+    let sectors: BTreeSet<u32> =
+        tags.iter().filter(high).filter(|tag| tag.is_boundary()).map(|tag| tag.valence()).collect();
+    let weights =
+        sectors.into_iter().map(|valence| ROWS * u64::from(valence) * u64::from(2 * valence + 8)).sum::<u64>();
+    if points.max(weights) > HIGH_VALENCE_LIMIT {
+        let valence = tags.iter().map(|tag| tag.valence()).max().unwrap_or(0);
+        return Err(PlanError::HighValence { valence, count: points.max(weights), limit: HIGH_VALENCE_LIMIT });
+    }
+    Ok(())
 }
+
+/// Rows of the matrices of a net: Gregory points, two edge records, a vertex record.
+const ROWS: u64 = 20 + 2 * 8 + 3;
+
+/// Most numbers that vertices of high valence may ask for: half a gibibyte of nets or of weights.
+const HIGH_VALENCE_LIMIT: u64 = 1 << 27;

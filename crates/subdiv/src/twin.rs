@@ -155,7 +155,7 @@ fn cross_product(a: Vec3, b: Vec3) -> Vec3 {
 
 fn unit_or_zero(a: Vec3) -> Vec3 {
     let largest = a.x.abs().max(a.y.abs()).max(a.z.abs());
-    if largest <= 0.0 || largest.is_nan() {
+    if largest.is_nan() || largest < f32::MIN_POSITIVE {
         return Vec3::ZERO;
     }
     let b = a / largest;

@@ -130,12 +130,8 @@ fn locations_map_there_and_back() {
 fn vertex_records_lie_on_the_exact_surface() {
     use osculate_surface::reference::{Boundary, Mesh, Reference};
     for (name, cage, plan) in plans() {
-        let boundary = if plan.rule == BoundaryRule::EdgeOnly { Boundary::EdgeOnly } else { Boundary::EdgeAndCorner };
-        let mesh = Mesh {
-            positions: cage.positions().to_vec(),
-            face_offsets: cage.face_offsets().to_vec(),
-            face_vertices: cage.face_vertices().to_vec(),
-        };
+        let boundary = Boundary::from(plan.rule);
+        let mesh = Mesh::from(&cage);
         let reference = Reference::new(&mesh, boundary).unwrap();
         let (centre, scale) = (cage.bounds().center(), cage.bounds().half_diagonal());
         let start: Vec<Vec3> = cage.positions().iter().map(|&p| ((p - centre) / scale).as_vec3()).collect();
@@ -172,4 +168,15 @@ fn nets_that_overflow_their_indices_are_refused() {
     let cone = common::cage(sides as usize + 1, &faces.iter().map(|face| &face[..]).collect::<Vec<_>>());
     let error = SurfacePlan::build(&cone, &PlanDesc::default()).err().expect("a refusal").to_string();
     assert!(error.contains("points of nets would number 50") && error.contains("split the cage"), "{error}");
+}
+
+/// A polygon with very many corners is refused before its tables fill the memory.
+#[test]
+fn very_high_valence_is_refused() {
+    let corners: Vec<u32> = (0..12_000).collect();
+    let error = SurfacePlan::build(&common::cage(12_000, &[&corners]), &PlanDesc::default()).err().expect("too much");
+    assert!(matches!(error, PlanError::HighValence { valence: 12_000, .. }), "{error}");
+    assert!(error.to_string().contains("12000 edges"), "{error}");
+    let corners: Vec<u32> = (0..300).collect();
+    assert!(SurfacePlan::build(&common::cage(300, &[&corners]), &PlanDesc::default()).is_ok());
 }

@@ -48,14 +48,6 @@ fn the_sampling_kernel_gives_the_bits_of_the_evaluation_stage() {
     }
 }
 
-fn mesh(cage: &osculate::Cage) -> Mesh {
-    Mesh {
-        positions: cage.positions().to_vec(),
-        face_offsets: cage.face_offsets().to_vec(),
-        face_vertices: cage.face_vertices().to_vec(),
-    }
-}
-
 /// (s,t) on a grid over every sub-face.
 fn grid_points(surface: &Surface, faces: usize, n: u32) -> Vec<SurfacePoint> {
     let at = move |i: u32| f64::from(i) / f64::from(n);
@@ -72,12 +64,10 @@ fn regular_patches_and_vertices_are_exact() {
     let gpu = gpu();
     let mut compared = 0;
     for specimen in zoo::all() {
-        for (rule, boundary) in
-            [(BoundaryRule::EdgeAndCorner, Boundary::EdgeAndCorner), (BoundaryRule::EdgeOnly, Boundary::EdgeOnly)]
-        {
+        for rule in [BoundaryRule::EdgeAndCorner, BoundaryRule::EdgeOnly] {
             let surface = surface(&gpu, &specimen.cage, Some(rule)).unwrap();
-            let mesh = mesh(&specimen.cage);
-            let exact = Reference::new(&mesh, boundary).unwrap();
+            let mesh = Mesh::from(&specimen.cage);
+            let exact = Reference::new(&mesh, Boundary::from(rule)).unwrap();
             compared += compare_with_exact(&format!("{}, {rule:?}", specimen.name), &specimen.cage, &surface, &exact);
         }
     }
