@@ -1,7 +1,8 @@
 //! The mathematics of the surfaces: bases, limit masks, Gregory patches and the exact f64 reference evaluator.
 //!
 //! Everything the GPU computes from a patch's control points is a [`Matrix`] times the points of its net; [`net`] says
-//! which nets there are, [`gregory`] generates the matrices.
+//! which nets there are, [`gregory`] generates the matrices of the Gregory schemes, [`stam`] those of the exact surface and
+//! [`biseptic`] those of curvature-continuous patches.
 
 mod angle;
 pub mod bezier;
