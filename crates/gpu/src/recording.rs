@@ -185,6 +185,12 @@ impl Recording {
         self.passes.push(Pass::CopyImage { image: image.clone(), buffer: buffer.clone() });
     }
 
+    /// One recording for each pass, in order: for timing passes one by one where the times within a submission do not separate them.
+    pub fn split(self) -> impl Iterator<Item = Self> {
+        let measure = self.measure;
+        self.passes.into_iter().map(move |pass| Self { passes: vec![pass], measure })
+    }
+
     /// Number of passes.
     pub fn len(&self) -> usize {
         self.passes.len()

@@ -31,5 +31,8 @@ fn every_pass_has_a_time() {
         let total: u64 = report.timings.iter().map(|(_, ns)| ns).sum();
         assert!(total > 0 && total < wall, "{total} ns of {wall} ns");
         assert!(report.statistics.is_empty(), "there are no render passes");
+        let alone: Vec<_> = recording.split().map(|pass| device.run(&pass).unwrap().timings).collect();
+        assert_eq!(alone.iter().map(Vec::len).collect::<Vec<usize>>(), [1, 1]);
+        assert_eq!([&alone[0][0].0, &alone[1][0].0], ["churn.comp", "copy values to values"]);
     });
 }
