@@ -30,9 +30,15 @@ vec3 shade_normal(vec3 v) {
     return dot(n, n) > 0.0 ? normalize(n) : v;
 }
 
+// The unit vector along a, zero for zero: undefined normals must not become colours that are not numbers.
+vec3 shade_unit(vec3 a) {
+    float squared = dot(a, a);
+    return squared > 0.0 ? normalize(a) : vec3(0.0);
+}
+
 // The shading of the peer's benchmark picture: one two-sided headlight, written without colour encoding.
 vec3 shade_peer() {
-    vec3 n = normalize(shade_view(normal));
+    vec3 n = shade_unit(shade_view(normal));
     return vec3(0.80, 0.75, 0.70) * (0.15 + 0.85 * abs(dot(n, normalize(vec3(0.3, 0.4, 1.0)))));
 }
 
@@ -78,7 +84,7 @@ void main() {
     uint tag = patches[patch_id].tag;
     vec3 rgb;
     switch (frame.shade) {
-    case SHADE_NORMALS: rgb = shade_decode(0.5 + 0.5 * normalize(normal)); break;
+    case SHADE_NORMALS: rgb = shade_decode(0.5 + 0.5 * shade_unit(normal)); break;
     case SHADE_PATCHES: rgb = shade_outlined(shade_flat(shade_patch_color(tag), n, v), measure); break;
     case SHADE_VALENCE: rgb = shade_outlined(shade_flat(shade_valence_color(tag), n, v), measure); break;
     case SHADE_ZEBRA: rgb = shade_zebra(n, v); break;
