@@ -5,6 +5,8 @@ mod commands;
 mod device;
 mod failure;
 mod input;
+#[cfg(unix)]
+mod interruption;
 mod logging;
 mod mesh;
 mod options;
@@ -23,6 +25,8 @@ fn main() -> ExitCode {
         Err(error) => return failure::report_parser(&error),
     };
     logging::start(cli.global.quiet, cli.global.verbose);
+    #[cfg(unix)]
+    interruption::clean_up();
     match run(cli) {
         Ok(verdict) => verdict.into(),
         Err(failure) => failure.report(),
