@@ -61,7 +61,7 @@ pub(crate) fn assign<M: Connectivity>(
     let first_irregular = nets.regular_count();
     let (vertices, edges) = general_sources(&owned, &patches, first_irregular, weights);
     let edge_slots = owned.edges.members();
-    let is_boundary = |&slot: &u32| slots.twins(slots.quad(slot))[(slot % 4) as usize] == NONE;
+    let is_boundary = |&slot: &u32| slots.twin(slots.quad(slot), slot % 4) == NONE;
     let boundary_edges = edge_slots.par_iter().map(is_boundary).collect();
     let regular = |mut slots: Vec<u32>| {
         slots.truncate(slots.partition_point(|&slot| slot < 4 * first_irregular));
@@ -95,15 +95,22 @@ impl<M: Connectivity> Slots<'_, M> {
         }
     }
 
-    /// The slots on the other side of a quad's edges, [`NONE`] where nothing is drawn there.
-    fn twins(&self, quad: u32) -> [u32; 4] {
+    /// The slot on the other side of an edge of a quad, [`NONE`] where nothing is drawn there.
+    fn twin(&self, quad: u32, side: u32) -> u32 {
         let old = self.mesh.old;
-        let (next, prev) = (old.next(quad), old.prev(quad));
-        let below = match old.twin(quad) {
-            NONE => NONE,
-            twin => old.next(twin),
-        };
-        [self.of(below, 3), self.of(next, 2), self.of(prev, 1), self.of(old.twin(prev), 0)]
+        match side {
+            0 => match old.twin(quad) {
+                NONE => NONE,
+                twin => self.of(old.next(twin), 3),
+            },
+            1 => self.of(old.next(quad), 2),
+            2 => self.of(old.prev(quad), 1),
+            _ => self.of(old.twin(old.prev(quad)), 0),
+        }
+    }
+
+    fn twins(&self, quad: u32) -> [u32; 4] {
+        [0, 1, 2, 3].map(|side| self.twin(quad, side))
     }
 }
 

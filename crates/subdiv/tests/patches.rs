@@ -180,3 +180,23 @@ fn very_high_valence_is_refused() {
     let corners: Vec<u32> = (0..300).collect();
     assert!(SurfacePlan::build(&common::cage(300, &[&corners]), &PlanDesc::default()).is_ok());
 }
+
+/// The host's side of the promise that the same cage gives the same bits: work is split by the number of threads, results are not.
+#[test]
+fn plans_do_not_depend_on_the_number_of_threads() {
+    let arrays = |plan: &SurfacePlan| {
+        let (vertices, edges) = (&plan.vertex_records, &plan.edge_records);
+        let tables = plan.levels.iter().flat_map(|level| [level.face_indices.clone(), level.vertex_indices.clone()]);
+        let plain = [&plan.nets, &plan.quads, &plan.patch_of_quad, &vertices.regular, &edges.regular];
+        let general = [&vertices.general, &edges.general, &plan.coefficients].map(|sources| sources.clone());
+        let lists: Vec<Vec<u32>> = tables.chain(plain.into_iter().cloned()).collect();
+        (lists, plan.patches.clone(), general, plan.reflections.clone(), plan.boundary_edges.clone())
+    };
+    let with_threads = |threads, cage: &Cage| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        arrays(&pool.install(|| SurfacePlan::build(cage, &PlanDesc::default()).unwrap()))
+    };
+    for (name, cage) in common::zoo() {
+        assert!(with_threads(1, &cage) == with_threads(3, &cage), "{name}");
+    }
+}
