@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::listed::numbered;
 use crate::{GltfError, Listed, ObjError, TagError, TopologyError};
 
 /// Why a [`CageDesc`](crate::CageDesc) is not a cage. Indices count from 0.
@@ -35,7 +36,7 @@ pub enum CageError {
         corners: usize,
     },
     /// Uv indices beyond the uv values.
-    #[error("{} with a missing uv: {corners}; the uv are 0..{values}", .corners.count("face corner"))]
+    #[error("{} with a missing uv: {corners}; {}", .corners.count("face corner"), numbered(*.values, "uv"))]
     MissingUv {
         /// The corners.
         corners: Listed<u32>,

@@ -72,12 +72,24 @@ impl<T: fmt::Display> fmt::Display for Listed<T> {
     }
 }
 
+/// What elements there are when they count from 0: `the faces are 0 to 11`, `the only face is 0`, `there are no faces`.
+pub(crate) fn numbered(n: usize, noun: &str) -> String {
+    let name = plural(2, noun).split_off(2);
+    match n {
+        0 => format!("there are no {name}"),
+        1 => format!("the only {noun} is 0"),
+        _ => format!("the {name} are 0 to {}", n - 1),
+    }
+}
+
 /// `1 vertex`, `2 vertices`, `3 faces`: a count with its noun.
 pub(crate) fn plural(n: usize, noun: &str) -> String {
     match n {
         1 => format!("1 {noun}"),
         _ => match noun.strip_suffix("vertex") {
             Some(kind) => format!("{n} {kind}vertices"),
+            // A word that is its own plural.
+            None if noun == "uv" => format!("{n} uv"),
             // "sets of targets", but "edges".
             None => match noun.split_once(" of ") {
                 Some((noun, of)) => format!("{n} {noun}s of {of}"),
@@ -111,5 +123,12 @@ mod tests {
         assert_eq!(plural(1, "vertex"), "1 vertex");
         assert_eq!(plural(0, "edge"), "0 edges");
         assert_eq!(plural(2, "unused vertex"), "2 unused vertices");
+    }
+
+    #[test]
+    fn ranges_name_their_last_element() {
+        assert_eq!(numbered(12, "face"), "the faces are 0 to 11");
+        assert_eq!(numbered(1, "vertex"), "the only vertex is 0");
+        assert_eq!(numbered(0, "uv"), "there are no uv");
     }
 }

@@ -1,7 +1,7 @@
 //! The subdivision tags of a cage: what OpenSubdiv's `t` lines say about creases, corners, holes and boundaries.
 
 use crate::Topology;
-use crate::listed::plural;
+use crate::listed::{numbered, plural};
 
 /// How the surface meets the boundary of the cage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -75,7 +75,7 @@ pub enum TagError {
         vertices: [u32; 2],
     },
     /// A corner at a vertex that does not exist.
-    #[error("corner {index} is at vertex {vertex}, but the vertices are 0..{vertices}")]
+    #[error("corner {index} is at vertex {vertex}, but {}", numbered(*.vertices, "vertex"))]
     NoSuchVertex {
         /// The corner.
         index: usize,
@@ -85,7 +85,7 @@ pub enum TagError {
         vertices: usize,
     },
     /// A hole in a face that does not exist.
-    #[error("hole {index} is face {face}, but the faces are 0..{faces}")]
+    #[error("hole {index} is face {face}, but {}", numbered(*.faces, "face"))]
     NoSuchFace {
         /// The hole.
         index: usize,

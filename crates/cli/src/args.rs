@@ -3,7 +3,7 @@
 use crate::commands::{check, compare, export, inspect, render, sample};
 use clap::{ArgAction, Args, Parser, Subcommand};
 
-/// Smooth subdivision surfaces through hull and domain stages of Vulkan, from the command line.
+/// Catmull-Clark surfaces through Vulkan's tessellation stages, from the command line.
 ///
 /// Reads a control cage (OBJ, glTF), puts its Catmull-Clark surface through tessellation shaders and gives you a
 /// picture, triangles, points, or the proof that the surface has no cracks. No window is needed.
@@ -14,10 +14,6 @@ pub(crate) struct Cli {
     #[command(flatten)]
     pub(crate) global: GlobalArgs,
 
-    /// List the Vulkan devices of this machine: index, name, kind, driver.
-    #[arg(long)]
-    pub(crate) list_devices: bool,
-
     /// What to do.
     #[command(subcommand)]
     pub(crate) command: Option<Command>,
@@ -27,8 +23,12 @@ pub(crate) struct Cli {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Common options")]
 pub(crate) struct GlobalArgs {
+    /// List the Vulkan devices of this machine (index, name, kind, driver) and do nothing else.
+    #[arg(long, global = true)]
+    pub(crate) list_devices: bool,
+
     /// Device to use: an index from --list-devices or a part of a name. Default: the best one.
-    #[arg(long, global = true, value_name = "N|NAME", env = "OSCULATE_DEVICE")]
+    #[arg(long, global = true, value_name = "N|NAME", env = "OSCULATE_DEVICE", allow_negative_numbers = true)]
     pub(crate) device: Option<String>,
 
     /// Switch on Vulkan's validation layers, synchronization included; any message is an error.

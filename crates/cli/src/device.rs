@@ -56,7 +56,11 @@ impl From<DeviceError> for Failure {
             DeviceError::NoMatch { .. } | DeviceError::MissingFeature { .. } => {
                 failure.with_hint("--list-devices shows the devices of this machine")
             }
-            _ => failure,
+            DeviceError::NoValidationLayer => failure.with_hint("leave --validation away, or install the layer"),
+            DeviceError::NoLoader { .. } | DeviceError::NoDevice => {
+                failure.with_hint("sample --evaluator reference and inspect work without a device")
+            }
+            _ => failure.with_hint("update the driver, or choose another --device"),
         }
     }
 }
@@ -65,10 +69,14 @@ impl From<EngineError> for Failure {
     fn from(error: EngineError) -> Self {
         match error {
             EngineError::Plan(PlanError::NothingToDraw { .. } | PlanError::TooLarge { .. }) => Self::input(error),
-            EngineError::Level { .. } => Self::usage(error),
+            EngineError::Level { .. } => Self::usage(error).with_hint("--level takes numbers from 1 to 64"),
+            EngineError::Unsupported { .. } => {
+                Self::device(error).with_hint("ask for less, or for another --device; --list-devices shows them")
+            }
             EngineError::Gpu(GpuError::Limit { .. } | GpuError::OutOfMemory { .. }) => Self::device(error)
                 .with_hint("ask for less (--size, --samples, --level, a smaller cage) or for another --device"),
-            _ => Self::device(error),
+            _ => Self::device(error)
+                .with_hint("another --device or a newer driver may do it; -v says which device is used"),
         }
     }
 }

@@ -14,6 +14,9 @@ use std::io::{self, Write};
 use std::path::Path;
 use std::process::ExitCode;
 
+/// Advice where a result cannot be written.
+pub(crate) const PLACE_HINT: &str = "name a file in a folder that exists and can be written to, on a disk with room";
+
 /// What a command that could do its work found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
@@ -71,10 +74,14 @@ impl Failure {
         Self::new(Kind::Device, message)
     }
 
+    /// A file that is read cannot be opened or does not hold what it should: exit code 3.
+    pub(crate) fn unreadable(message: impl Display) -> Self {
+        Self::input(message).with_hint("check the name, which counts from the current folder, and what the file holds")
+    }
+
     /// A result could not be written to `path`: exit code 2.
     pub(crate) fn output(path: &Path, error: impl Display) -> Self {
-        Self::usage(format_args!("{}: cannot write: {error}", path.display()))
-            .with_hint("name a file in a folder that exists and can be written to, on a disk with room")
+        Self::usage(format_args!("{}: cannot write: {error}", path.display())).with_hint(PLACE_HINT)
     }
 
     /// The same failure with advice in place of what there was.

@@ -2,8 +2,8 @@
 
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
-use osculate::EngineError;
-use osculate_cage::{BoundaryRule, Cage};
+use osculate::{EngineError, PlanError};
+use osculate_cage::{BoundaryRule, Cage, ReadError};
 use std::path::PathBuf;
 
 /// The cage and what happens at its boundary.
@@ -38,6 +38,15 @@ impl From<BoundaryArg> for BoundaryRule {
     }
 }
 
+/// The name of a rule on the command line.
+pub(crate) fn boundary_name(rule: BoundaryRule) -> &'static str {
+    match rule {
+        BoundaryRule::EdgeAndCorner => "edge-and-corner",
+        BoundaryRule::EdgeOnly => "edge-only",
+        BoundaryRule::None => "none",
+    }
+}
+
 /// A cage with the boundary rule that applies to it.
 pub(crate) struct Input {
     /// The cage.
@@ -53,21 +62,43 @@ impl InputArgs {
         for warning in input.cage.warnings() {
             tracing::warn!("{}: {warning}", self.file.display());
         }
+        if input.cage.bounds().half_diagonal() == 0.0 {
+            tracing::warn!("{}: all vertices are at the same place; the surface is a point", self.file.display());
+        }
         Ok(input)
     }
 
     /// Reads the cage for a command whose result holds the warnings.
     pub(crate) fn read_silently(&self) -> Result<Input, Failure> {
-        let cage = Cage::read(&self.file).map_err(Failure::input)?;
+        let cage = Cage::read(&self.file).map_err(refusal)?;
         let boundary = self.boundary.map(BoundaryRule::from).or(cage.boundary_rule()).unwrap_or_default();
         Ok(Input { cage, boundary })
+    }
+
+    /// The failure for a cage of which the boundary rule leaves nothing.
+    pub(crate) fn require_faces(&self, input: &Input, drawn: &[bool]) -> Result<(), Failure> {
+        if drawn.contains(&true) {
+            return Ok(());
+        }
+        Err(self.refuse(EngineError::Plan(PlanError::NothingToDraw { faces: input.cage.face_count() })))
     }
 
     /// The failure for a cage that cannot become a surface.
     pub(crate) fn refuse(&self, error: EngineError) -> Failure {
         match error {
-            EngineError::Plan(error) => Failure::input(format_args!("{}: {error}", self.file.display())),
+            EngineError::Plan(error) => Failure::input(format_args!("{}: {error}", self.file.display()))
+                .with_hint("inspect says what the cage is made of"),
             other => other.into(),
         }
+    }
+}
+
+/// The failure for a file that is not read. Messages about what is in it say what to change.
+fn refusal(error: ReadError) -> Failure {
+    match error {
+        ReadError::Io { .. } => Failure::unreadable(error),
+        ReadError::UnknownFormat { .. } => Failure::input(error).with_hint("convert the model to one of these formats"),
+        _ => Failure::input(error)
+            .with_hint("the cage must be a manifold mesh in OBJ or glTF; correct the file as the message says"),
     }
 }

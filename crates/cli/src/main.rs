@@ -12,30 +12,47 @@ mod mesh;
 mod options;
 mod progress;
 mod samples;
+mod shortest;
 mod stdout;
 
 use args::{Cli, Command};
 use clap::{CommandFactory, Parser};
 use failure::{Failure, Verdict};
 use std::process::ExitCode;
+use std::time::Instant;
 
 fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
+        Err(error) if error.use_stderr() && lists_devices() => return end(device::list()),
         Err(error) => return failure::report_parser(&error),
     };
     logging::start(cli.global.quiet, cli.global.verbose);
     #[cfg(unix)]
     interruption::clean_up();
-    match run(cli) {
+    let start = Instant::now();
+    let result = run(cli);
+    tracing::info!("{:.2} s", start.elapsed().as_secs_f64());
+    end(result)
+}
+
+fn end(result: Result<Verdict, Failure>) -> ExitCode {
+    match result {
         Ok(verdict) => verdict.into(),
         Err(failure) => failure.report(),
     }
 }
 
+/// Whether devices are to be listed, asked of a command line that does not parse: it may be one that lacks what its command
+/// needs, which a list of devices does not.
+fn lists_devices() -> bool {
+    let options = std::env::args_os().skip(1).take_while(|argument| argument != "--");
+    options.into_iter().any(|argument| argument == "--list-devices")
+}
+
 fn run(cli: Cli) -> Result<Verdict, Failure> {
     let global = &cli.global;
-    if cli.list_devices {
+    if global.list_devices {
         return device::list();
     }
     match cli.command {

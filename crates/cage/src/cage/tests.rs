@@ -66,7 +66,7 @@ fn far_away_is_fine() {
 fn topology_is_checked() {
     assert_eq!(
         refused(|d| d.face_vertices[3] = 7),
-        "1 face corner without a vertex: face 0 vertex 7; the vertices are 0..4"
+        "1 face corner without a vertex: face 0 vertex 7; the vertices are 0 to 3"
     );
 }
 
@@ -117,9 +117,9 @@ fn tags_that_do_not_fit() {
     assert_eq!(refused(crease([0, 9], 1.0)), "crease 0 is between vertices 0 and 9, but no edge joins them");
     assert_eq!(refused(crease([0, 1], -1.0)), "crease 0 has sharpness -1, but sharpness is at least 0");
     assert_eq!(refused(crease([0, 1], f32::NAN)), "crease 0 has sharpness NaN, but sharpness is at least 0");
-    assert_eq!(refused(corner(4, 1.0)), "corner 0 is at vertex 4, but the vertices are 0..4");
+    assert_eq!(refused(corner(4, 1.0)), "corner 0 is at vertex 4, but the vertices are 0 to 3");
     assert_eq!(refused(corner(0, -2.5)), "corner 0 has sharpness -2.5, but sharpness is at least 0");
-    assert_eq!(refused(|d| d.tags.holes.extend([0, 1])), "hole 1 is face 1, but the faces are 0..1");
+    assert_eq!(refused(|d| d.tags.holes.extend([0, 1])), "hole 1 is face 1, but the only face is 0");
     assert_eq!(
         refused(|d| d.tags.face_varying_boundary = Some(6)),
         "the face-varying boundary rule is 6, but the rules are 0 to 5"
@@ -140,7 +140,7 @@ fn uv_that_do_not_fit() {
     );
     assert_eq!(
         refused(uv(vec![DVec2::ZERO], vec![0, 1, 0, 2])),
-        "2 face corners with a missing uv: 1, 3; the uv are 0..1"
+        "2 face corners with a missing uv: 1, 3; the only uv is 0"
     );
     assert_eq!(refused(uv(vec![DVec2::NAN], vec![0; 4])), "1 uv not finite: 0");
 }

@@ -550,7 +550,7 @@ fn refused_meshes_name_their_elements() {
     file.primitive(json!({"attributes": {"POSITION": positions}, "indices": indices}));
     assert_eq!(
         file.refused(),
-        "test.glb: inconsistent winding, 1 edge run in the same direction by both faces: 0-1 (faces 0, 1); flip the faces that are inside out (elements count from 0)"
+        "test.glb: inconsistent winding, 1 edge along which both faces run the same way: 0-1 (faces 0, 1); flip the faces that are inside out, or delete one of two equal faces (elements count from 0)"
     );
     let mut nan = File::new();
     let positions = nan.positions(&[[0.0; 3], [f32::NAN; 3], [1.0; 3]]);

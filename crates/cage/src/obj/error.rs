@@ -4,6 +4,9 @@
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjError {
+    /// Bytes that no text holds.
+    #[error("not a text OBJ file: it holds zero bytes; export it as OBJ in ASCII or UTF-8")]
+    NotText,
     /// A word that is not a number where one is due.
     #[error("{0:?} is not a number; numbers look like -1.5 or 2e-3")]
     Number(String),

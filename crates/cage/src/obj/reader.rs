@@ -29,6 +29,10 @@ pub(super) struct SourceLines {
 type AtLine<T> = Result<T, (u32, ObjError)>;
 
 pub(super) fn parse(text: &[u8]) -> AtLine<Parsed> {
+    // Binary formats and UTF-16 have zeros soon; all lines would otherwise count as unknown statements.
+    if text.iter().take(4096).any(|&byte| byte == 0) {
+        return Err((1, ObjError::NotText));
+    }
     let mut reader = Reader { face_offsets: vec![0], ..Reader::default() };
     for (number, line) in Lines::new(text) {
         reader.statement(&line, number).map_err(|error| (number, error))?;

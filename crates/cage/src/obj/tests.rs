@@ -326,11 +326,11 @@ mod tags {
         );
         assert_eq!(
             line("t corner 1/1/0 4 1"),
-            "test.obj:6: corner 0 is at vertex 4, but the vertices are 0..4 (elements count from 0)"
+            "test.obj:6: corner 0 is at vertex 4, but the vertices are 0 to 3 (elements count from 0)"
         );
         assert_eq!(
             line("t hole 1/0/0 1"),
-            "test.obj:6: hole 0 is face 1, but the faces are 0..1 (elements count from 0)"
+            "test.obj:6: hole 0 is face 1, but the only face is 0 (elements count from 0)"
         );
         assert_eq!(
             line("t corner 1/1/0 1 -1"),
@@ -402,7 +402,7 @@ mod refusals {
         let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 -1 0\nf 1 2 3\nf 1 2 4\n";
         assert_eq!(
             refused(text),
-            "test.obj:6: inconsistent winding, 1 edge run in the same direction by both faces: 0-1 (faces 0, 1); flip the faces that are inside out (elements count from 0)"
+            "test.obj:6: inconsistent winding, 1 edge along which both faces run the same way: 0-1 (faces 0, 1); flip the faces that are inside out, or delete one of two equal faces (elements count from 0)"
         );
     }
 
@@ -531,4 +531,13 @@ fn damaged_text_never_panics() {
         read += usize::from(read_obj(&damaged, "damaged.obj").is_ok());
     }
     assert!((1000..19_000).contains(&read), "damage must hit some and spare some, but {read} of 20000 were read");
+}
+
+#[test]
+fn what_is_not_text_is_refused_as_such() {
+    let utf_16: Vec<u8> = "v 0 0 0\n".encode_utf16().flat_map(u16::to_le_bytes).collect();
+    for bytes in [&b"glTF\x02\0\0\0"[..], &utf_16] {
+        let error = read_obj(bytes, "test.obj").expect_err("must be refused").to_string();
+        assert!(error.contains("not a text OBJ file"), "{error}");
+    }
 }

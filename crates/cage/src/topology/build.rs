@@ -88,8 +88,16 @@ fn check_corners(vertex_count: usize, offsets: &[u32], vertices: &[u32]) -> Resu
     Ok(())
 }
 
-/// The vertices that occur more than once among `corners`, once per extra occurrence.
+/// The vertices that occur more than once among `corners`, each once.
 fn repeated_vertices(corners: &[u32]) -> Vec<u32> {
+    let mut repeated = repetitions(corners);
+    repeated.sort_unstable();
+    repeated.dedup();
+    repeated
+}
+
+/// The vertices that occur more than once among `corners`, once per extra occurrence.
+fn repetitions(corners: &[u32]) -> Vec<u32> {
     // Comparing all pairs needs no memory and is quickest for the faces that occur; a huge polygon is sorted.
     const PAIRWISE: usize = 16;
     if corners.len() <= PAIRWISE {

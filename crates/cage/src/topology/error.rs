@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::Listed;
+use crate::listed::numbered;
 
 /// Why faces cannot be made into a [`Topology`](crate::Topology). Indices count from 0.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -28,7 +29,7 @@ pub enum TopologyError {
     #[error("{counted} with fewer than three corners: {0}; delete them", counted = .0.count("face"))]
     TooFewCorners(Listed<u32>),
     /// Faces that name vertices that do not exist.
-    #[error("{} without a vertex: {corners}; the vertices are 0..{vertices}", .corners.count("face corner"))]
+    #[error("{} without a vertex: {corners}; {}", .corners.count("face corner"), numbered(*.vertices, "vertex"))]
     MissingVertex {
         /// The corners and the indices they name.
         corners: Listed<FaceCorner>,
@@ -42,7 +43,7 @@ pub enum TopologyError {
     #[error("not manifold, {counted} with more than two faces: {0}; remove or separate the extra faces", counted = .0.count("edge"))]
     NonManifoldEdge(Listed<EdgeFaces>),
     /// Edges that two faces run in the same direction.
-    #[error("inconsistent winding, {counted} run in the same direction by both faces: {0}; flip the faces that are inside out", counted = .0.count("edge"))]
+    #[error("inconsistent winding, {counted} along which both faces run the same way: {0}; flip the faces that are inside out, or delete one of two equal faces", counted = .0.count("edge"))]
     InconsistentWinding(Listed<EdgeFaces>),
     /// Vertices whose faces form several fans that only touch there.
     #[error("not manifold, {counted} where separate fans of faces touch: {0}; split these vertices", counted = .0.count("bow-tie vertex"))]

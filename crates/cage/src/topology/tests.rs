@@ -211,7 +211,7 @@ fn too_few_corners() {
 fn missing_vertices() {
     assert_eq!(
         message(build(3, &[&[0, 1, 2], &[0, 3, 9]])),
-        "2 face corners without a vertex: face 1 vertex 3, face 1 vertex 9; the vertices are 0..3"
+        "2 face corners without a vertex: face 1 vertex 3, face 1 vertex 9; the vertices are 0 to 2"
     );
 }
 
@@ -249,7 +249,7 @@ fn inconsistent_winding() {
     let error = build(4, &[&[0, 1, 2], &[0, 1, 3]]).expect_err("both faces run 0-1");
     assert_eq!(
         error.to_string(),
-        "inconsistent winding, 1 edge run in the same direction by both faces: 0-1 (faces 0, 1); flip the faces that are inside out"
+        "inconsistent winding, 1 edge along which both faces run the same way: 0-1 (faces 0, 1); flip the faces that are inside out, or delete one of two equal faces"
     );
     assert_eq!(error.face(), Some(1));
 }

@@ -17,8 +17,11 @@ use serde::Serialize;
 /// Corners of triangles that lie on a common edge or vertex of patches must have the same bits in position and normal,
 /// whichever patch drew them, and the triangles must close over them. Prints a line per scheme and level: triangles, then
 /// what must be zero, which is open (edges without a partner), over_shared (edges with too many), split_normals (corners that
-/// differ), inverted (triangles the wrong way round) and wrong_patches (those that the device left out, drew twice or made up).
-/// Degenerate triangles are counted and allowed. Beside it stands the same question asked of positions alone.
+/// differ), inverted (triangles the wrong way round) and, if not zero, wrong_patches (those that the device left out, drew twice
+/// or made up).
+/// split_positions (corners that differ in position) stands there too if there are any. Degenerate triangles, which have two
+/// corners at one parameter of the patch, are counted and allowed. After the semicolon: the same counts when vertices are
+/// joined by equal positions instead of by records; for information.
 ///
 /// Exit code 1 means that a proof failed.
 #[derive(Args, Debug)]
@@ -27,20 +30,27 @@ pub(crate) struct CheckArgs {
     #[command(flatten)]
     input: InputArgs,
 
-    /// Schemes to prove, with commas between; all: every scheme of this build.
-    #[arg(long, alias = "scheme", value_name = "SCHEMES", value_delimiter = ',', default_value = "all")]
+    /// Schemes to prove.
+    #[arg(long, alias = "scheme", value_name = "SCHEMES", help = SchemeChoice::help(), value_delimiter = ',', default_value = "all")]
     schemes: Vec<SchemeChoice>,
 
     /// Levels to prove: segments per patch edge, real numbers from 1 to 64.
-    #[arg(long, alias = "level", value_name = "LEVELS", value_delimiter = ',', default_value = "1,5,8")]
+    #[arg(
+        long,
+        alias = "level",
+        value_name = "LEVELS",
+        value_delimiter = ',',
+        default_value = "1,5,8",
+        allow_hyphen_values = true
+    )]
     levels: Vec<Level>,
 
     /// How levels that are not integers are met.
     #[arg(long, value_name = "SPACING", default_value = "equal")]
     spacing: SpacingArg,
 
-    /// Prove the tessellation whose edges are about this many pixels long in the camera's picture; --levels is ignored.
-    #[arg(long, value_name = "PX")]
+    /// Prove the tessellation whose edges are at most about this many pixels long in the camera's picture; --levels is ignored.
+    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     adaptive: Option<Pixels>,
 
     /// Who evaluates the surface.
@@ -80,6 +90,7 @@ enum Fineness {
 impl CheckArgs {
     /// Checks the schemes.
     pub(crate) fn validate(self) -> Result<Job, Failure> {
+        self.evaluator.in_this_build()?;
         Ok(Job {
             schemes: SchemeChoice::schemes(&self.schemes)?,
             input: self.input,
@@ -143,14 +154,15 @@ impl Job {
     }
 
     fn line(&self, scheme: Scheme, case: &Case, report: &CheckReport) -> String {
-        let CheckReport {
-            triangles, open, over_shared, split_normals, inverted, wrong_patches, degenerate, weld, ..
-        } = report;
+        let CheckReport { triangles, open, over_shared, split_normals, inverted, degenerate, weld, .. } = report;
+        let some = |count: u64, name: &str| if count == 0 { String::new() } else { format!("{count} {name}, ") };
+        let split_positions = some(report.split_positions, "split_positions");
+        let wrong_patches = some(report.wrong_patches, "wrong_patches");
         let (key, value, spacing) = (case.key, case.value, self.spacing.name());
         let verdict = if report.is_watertight() { "watertight" } else { "NOT WATERTIGHT" };
         format!(
             "{scheme} {key} {value} {spacing}: {triangles} triangles, {open} open, {over_shared} over_shared, \
-             {split_normals} split_normals, {inverted} inverted, {wrong_patches} wrong_patches, {degenerate} degenerate; \
+             {split_positions}{split_normals} split_normals, {inverted} inverted, {wrong_patches}{degenerate} degenerate; \
              by position {} open, {} over_shared: {verdict}",
             weld.open, weld.over_shared
         )

@@ -11,6 +11,7 @@ use crate::progress::Progress;
 use clap::Args;
 use glam::Vec3;
 use osculate::{CapturedVertex, Engine, Scheme, SubFace, Surface, SurfaceDesc, Tessellation, VertexKey};
+use osculate_cage::Bounds;
 use osculate_compare::whole_file;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -30,7 +31,7 @@ pub(crate) struct ExportArgs {
     output: PathBuf,
 
     /// How the surface is put together.
-    #[arg(long, alias = "schemes", value_name = "SCHEME", default_value = "gregory2")]
+    #[arg(long, alias = "schemes", value_name = "SCHEME", default_value = "gregory2", help = SchemeName::help())]
     scheme: SchemeName,
 
     /// Give each triangle three vertices of its own, in the order in which the device drew them, each with its place on the
@@ -82,6 +83,7 @@ impl ExportArgs {
                 _ => return Err(Failure::usage("--no-weld writes PLY only").with_hint("end the output's name in .ply")),
             };
         }
+        let output = output.apart_from([self.input.file.as_path()])?;
         let scheme = self.scheme.in_this_build()?;
         Ok(Job { input: self.input, output, scheme, tessellation: self.tessellation, camera: self.camera })
     }
@@ -90,6 +92,7 @@ impl ExportArgs {
 /// Draws into memory and writes the triangles.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let input = job.input.read()?;
+    job.warn_of_coarse_numbers(input.cage.bounds());
     let tessellation = job.tessellation.tessellation(&job.camera, input.cage.bounds())?;
     let desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary) };
     with_engine(global, |engine: &Engine| {
@@ -99,7 +102,33 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
         let path = &job.output.path;
         drawing.export(job.output.format, path).map_err(|error| error.to(path))
     })?;
+    tracing::info!("{}: {} bytes", job.output.path.display(), job.output.bytes());
     Ok(Verdict::Pass)
+}
+
+impl Job {
+    /// Says so if numbers of the format lie so far apart where the cage is that its shape suffers.
+    fn warn_of_coarse_numbers(&self, bounds: Bounds) {
+        let is_32_bit = matches!(self.output.format, Format::Ply | Format::Soup | Format::Stl);
+        let size = (bounds.max - bounds.min).max_element();
+        let spacing = spacing(bounds.min.abs().max(bounds.max.abs()).max_element());
+        if is_32_bit && spacing > COARSE * size && size > 0.0 {
+            let file = self.output.path.display();
+            tracing::warn!(
+                "{file}: its 32-bit numbers are {spacing:.1e} apart this far from the origin, the cage is {size:.1e} large; \
+                 .obj and .glb keep its shape"
+            );
+        }
+    }
+}
+
+/// Numbers farther apart than this part of the cage's size show as steps.
+const COARSE: f64 = 1e-4;
+
+/// The distance from a number to its neighbour among 32-bit floats.
+fn spacing(number: f64) -> f64 {
+    let number = number as f32;
+    f64::from(number.next_up()) - f64::from(number)
 }
 
 /// A surface about to be drawn into memory.
@@ -114,6 +143,7 @@ impl Drawing<'_> {
         let writer: fn(&Mesh, &mut dyn Write) -> io::Result<()> = match format {
             Format::Soup => {
                 let soup = self.soup(path)?;
+                tracing::info!("{} vertices, {} triangles", soup.vertices(), soup.vertices() / 3);
                 return Ok(whole_file::write(path, |out| soup.write(out))?);
             }
             Format::Ply => ply::write,
@@ -122,6 +152,7 @@ impl Drawing<'_> {
             Format::Stl => stl::write,
         };
         let mesh = self.welded()?;
+        tracing::info!("{} vertices, {} triangles", mesh.positions.len(), mesh.triangles.len());
         Ok(whole_file::write(path, |out| writer(&mesh, out))?)
     }
 

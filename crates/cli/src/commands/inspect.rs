@@ -1,11 +1,11 @@
 //! `inspect`: what a cage is made of.
 
 use crate::failure::{Failure, Verdict};
-use crate::input::InputArgs;
+use crate::input::{InputArgs, boundary_name};
 use crate::stdout;
 use clap::Args;
 use osculate::{PatchKind, Scheme, SurfacePlan};
-use osculate_cage::{Cage, Inspection, inspect};
+use osculate_cage::{BoundaryRule, Cage, Inspection, inspect};
 use osculate_subdiv::PlanDesc;
 use serde::Serialize;
 use std::collections::BTreeMap;
@@ -51,6 +51,8 @@ impl InspectArgs {
 struct Findings {
     #[serde(flatten)]
     cage: Inspection,
+    /// The boundary rule in force.
+    boundary_rule: &'static str,
     /// What each scheme of this build makes of the cage.
     schemes: BTreeMap<&'static str, SchemePlan>,
     /// What keeps the schemes from drawing the cage; absent if nothing does.
@@ -70,7 +72,7 @@ struct SchemePlan {
 /// Looks at the cage and prints what there is.
 pub(crate) fn run(job: &Job) -> Result<Verdict, Failure> {
     let input = job.input.read_silently()?;
-    let findings = Findings::new(&input.cage, &PlanDesc { boundary: Some(input.boundary) });
+    let findings = Findings::new(&input.cage, input.boundary);
     if job.json {
         stdout::print_json(&findings)?;
     } else {
@@ -80,17 +82,24 @@ pub(crate) fn run(job: &Job) -> Result<Verdict, Failure> {
 }
 
 impl Findings {
-    fn new(cage: &Cage, desc: &PlanDesc) -> Self {
-        let plan = SurfacePlan::build(cage, desc);
+    fn new(cage: &Cage, boundary: BoundaryRule) -> Self {
+        let plan = SurfacePlan::build(cage, &PlanDesc { boundary: Some(boundary) });
         let not_drawn = plan.as_ref().err().map(ToString::to_string);
         // The schemes of this build differ in their formulas, not in their patches.
         let schemes =
             plan.map(|plan| Scheme::ALL.iter().map(|scheme| (scheme.name(), SchemePlan::new(&plan))).collect());
-        Self { cage: inspect(cage), schemes: schemes.unwrap_or_default(), not_drawn }
+        Self {
+            cage: inspect(cage),
+            boundary_rule: boundary_name(boundary),
+            schemes: schemes.unwrap_or_default(),
+            not_drawn,
+        }
     }
 
     fn text(&self) -> String {
         let cage = &self.cage;
+        let tags = [(cage.creases, "crease"), (cage.corners, "corner"), (cage.holes, "hole")];
+        let tags = tags.map(|(n, noun)| count(n, noun));
         let mut text = String::new();
         let mut row = |name: &str, value: &dyn Display| {
             writeln!(text, "{name:16} {value}").expect("writing to a string does not fail");
@@ -103,11 +112,12 @@ impl Findings {
         if !cage.boundary_valence.is_empty() {
             row("at the boundary", &histogram(&cage.boundary_valence));
         }
-        row("boundary edges", &format_args!("{} in {} curves", cage.boundary_edges, cage.boundaries));
+        row("boundary edges", &format_args!("{} in {}", cage.boundary_edges, count(cage.boundaries, "curve")));
+        row("boundary rule", &self.boundary_rule);
         row("components", &cage.components);
         row("genus", &cage.genus);
         row("euler", &cage.euler);
-        row("tags", &format_args!("{} creases, {} corners, {} holes", cage.creases, cage.corners, cage.holes));
+        row("tags", &tags.join(", "));
         for (name, plan) in &self.schemes {
             row(name, plan);
         }
@@ -122,6 +132,16 @@ impl Findings {
         }
         text
     }
+}
+
+/// `1 hole`, `2 holes`.
+fn count(n: usize, noun: &str) -> String {
+    let ending = match noun {
+        _ if n == 1 => "",
+        "patch" => "es",
+        _ => "s",
+    };
+    format!("{n} {noun}{ending}")
 }
 
 /// `value x count` pairs, or `none`.
@@ -151,8 +171,7 @@ fn kind_name(kind: PatchKind) -> String {
 impl Display for SchemePlan {
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let kinds: Vec<String> = self.by_kind.iter().map(|(kind, count)| format!("{kind} {count}")).collect();
-        let steps = if self.steps == 1 { "step" } else { "steps" };
-        let Self { patches, steps: count, bytes, .. } = self;
-        write!(out, "{patches} patches ({}) after {count} {steps}, {bytes} bytes of tables", kinds.join(", "))
+        let (patches, steps) = (count(self.patches, "patch"), count(self.steps as usize, "step"));
+        write!(out, "{patches} ({}) after {steps}, {} bytes of tables", kinds.join(", "), self.bytes)
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::args::GlobalArgs;
 use crate::device::with_engine;
-use crate::failure::{Failure, Verdict};
+use crate::failure::{Failure, PLACE_HINT, Verdict};
 use crate::input::InputArgs;
 use crate::options::{CameraArgs, Colour, Output, SchemeName, TessellationArgs};
 use crate::progress::Progress;
@@ -26,7 +26,7 @@ pub(crate) struct RenderArgs {
     output: PathBuf,
 
     /// How the surface is put together.
-    #[arg(long, alias = "schemes", value_name = "SCHEME", default_value = "gregory2")]
+    #[arg(long, alias = "schemes", value_name = "SCHEME", default_value = "gregory2", help = SchemeName::help())]
     scheme: SchemeName,
 
     #[command(flatten)]
@@ -43,7 +43,7 @@ pub(crate) struct RenderArgs {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Look")]
 struct LookArgs {
-    /// What the colours mean.
+    /// What the colours mean; docs/shading.md has pictures and the full legends.
     #[arg(long, value_name = "SHADE", default_value = "lit")]
     shade: ShadeArg,
 
@@ -53,7 +53,7 @@ struct LookArgs {
 
     /// Samples per pixel, which smooth the outlines: 1, 2, 4 or 8, as far as the device has them. Default: 4, for the
     /// shade peer 1.
-    #[arg(long, value_name = "N", value_parser = samples)]
+    #[arg(long, value_name = "N", value_parser = samples, allow_negative_numbers = true)]
     samples: Option<u32>,
 
     /// Colour behind the surface: #RRGGBB, #RRGGBBAA, black, white or transparent. Default: dark grey.
@@ -64,19 +64,19 @@ struct LookArgs {
 /// Names of the shades.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum ShadeArg {
-    /// Clay under three lights.
+    /// Porcelain under three lights; the inside of an open surface is blue-grey.
     Lit,
-    /// The direction of the surface as a colour.
+    /// The unit normal as a colour: red, green, blue are 0.5 + 0.5 n.
     Normals,
-    /// The patches by kind.
+    /// The patches by kind: grey is bicubic and exact, other colours are Gregory patches by valence.
     Patches,
-    /// The patches by the valence of their irregular vertex.
+    /// The patches by the valence of their irregular vertex; paler where regular at a boundary.
     Valence,
-    /// Lit, with the edges of the triangles.
+    /// Lit, with the edges of the triangles that the tessellator made.
     Wireframe,
-    /// Reflected stripes: kinks show where the surface is not smooth.
+    /// Reflected stripes: they break where the surface has an edge, and kink where curvature jumps.
     Zebra,
-    /// Mean curvature.
+    /// Mean curvature: white is flat, red bulges, blue is hollow.
     Curvature,
     /// A two-sided headlight without sRGB encoding, for comparisons with other renderers.
     Peer,
@@ -124,7 +124,7 @@ impl RenderArgs {
     /// Checks the scheme and the place of the output.
     pub(crate) fn validate(self) -> Result<Job, Failure> {
         Ok(Job {
-            output: Output::new(self.output, &[("png", ())])?,
+            output: Output::new(self.output, &[("png", ())])?.apart_from([self.input.file.as_path()])?,
             scheme: self.scheme.in_this_build()?,
             input: self.input,
             look: self.look,
@@ -147,7 +147,15 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let drawn = with_engine(global, draw)?;
     let [width, height] = drawn.size;
     let picture = Picture::new(width, height, drawn.rgba).map_err(Failure::device)?;
-    picture.write(&job.output.path).map_err(Failure::usage)?;
+    let first = picture.pixels().next();
+    if picture.pixels().all(|pixel| Some(pixel) == first) {
+        tracing::warn!(
+            "{}: the picture is blank: the surface is out of view, too small to be seen, or fills it evenly",
+            job.output.path.display()
+        );
+    }
+    picture.write(&job.output.path).map_err(|error| Failure::usage(error).with_hint(PLACE_HINT))?;
+    tracing::info!("{}: {width} x {height} pixels, {} bytes", job.output.path.display(), job.output.bytes());
     Ok(Verdict::Pass)
 }
 

@@ -4,7 +4,7 @@ use crate::args::GlobalArgs;
 use crate::device::with_engine;
 use crate::failure::{Failure, Verdict, WriteError};
 use crate::input::{Input, InputArgs};
-use crate::options::SchemeName;
+use crate::options::{SchemeName, check_apart, check_place};
 use crate::progress::Progress;
 use crate::samples::exact::Exact;
 use crate::samples::{self, Places};
@@ -22,8 +22,10 @@ use std::path::{Path, PathBuf};
 ///
 /// A quad has sub = -1 and (s,t) = (0,0), (1,0), (1,1), (0,1) at its vertices. Any other face consists of one sub-face per
 /// vertex, sub = 0, 1, ..: (0,0) is the vertex, (1,0) the middle of the edge to the next vertex, (1,1) the centre of the
-/// face, (0,1) the middle of the edge to the previous vertex. Faces count from 0 in file order. ev = 1 marks corners on an
-/// irregular vertex, where only position and normal are those of the limit surface.
+/// face, (0,1) the middle of the edge to the previous vertex. Faces count from 0 in file order.
+///
+/// ev = 1: corner on an irregular vertex; do not use du, dv there. Positions and normals at vertices are exact for every
+/// scheme; between them gregory2 approximates next to irregular vertices.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct SampleArgs {
@@ -35,7 +37,7 @@ pub(crate) struct SampleArgs {
     scheme: Option<SchemeName>,
 
     /// Sample each face or sub-face at (N + 1) x (N + 1) points.
-    #[arg(long, value_name = "N", default_value_t = 4, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = 4, allow_negative_numbers = true, value_parser = steps)]
     grid: u32,
 
     /// Sample at the places in this CSV file instead: face,sub,s,t in each line.
@@ -51,14 +53,18 @@ pub(crate) struct SampleArgs {
     output: Option<PathBuf>,
 }
 
+fn steps(text: &str) -> Result<u32, String> {
+    text.parse().ok().filter(|&n| n > 0).ok_or_else(|| format!("expected a whole number from 1 to {}", u32::MAX))
+}
+
 /// Names of the evaluators.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 enum EvaluatorArg {
     /// The device.
     Auto,
-    /// The device, by the text of the evaluation shaders.
+    /// The device, running the code of the tessellation stages.
     Tessellator,
-    /// The device, by the same text in a compute shader.
+    /// The same code in a compute shader; gives equal results.
     Compute,
     /// The exact limit surface in double precision, without a device.
     Reference,
@@ -102,6 +108,10 @@ impl SampleArgs {
             (EvaluatorArg::Reference, Some(scheme)) => return Err(reference_is_exact(scheme)),
             (_, scheme) => Evaluator::Device(scheme.unwrap_or(SchemeName::Gregory2).in_this_build()?),
         };
+        if let Some(output) = &self.output {
+            check_place(output)?;
+            check_apart(output, [self.input.file.as_path()].into_iter().chain(self.at.as_deref()))?;
+        }
         let places = self.at.map_or(PlacesFrom::Grid(self.grid), PlacesFrom::List);
         Ok(Job { input: self.input, places, evaluator, output: self.output })
     }
@@ -117,7 +127,9 @@ fn reference_is_exact(scheme: SchemeName) -> Failure {
 /// Samples and writes.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let input = job.input.read()?;
-    let places = job.places.read(&input)?;
+    let drawn = input.cage.drawn_faces(input.boundary);
+    job.input.require_faces(&input, &drawn)?;
+    let places = job.places.read(&input, &drawn)?;
     let path = job.output.as_deref();
     match job.evaluator {
         Evaluator::Reference => {
@@ -135,11 +147,10 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
 }
 
 impl PlacesFrom {
-    fn read(&self, input: &Input) -> Result<Places, Failure> {
-        let drawn = input.cage.drawn_faces(input.boundary);
+    fn read(&self, input: &Input, drawn: &[bool]) -> Result<Places, Failure> {
         match self {
-            Self::Grid(n) => Ok(samples::grid(&input.cage, *n, &drawn)),
-            Self::List(path) => samples::read(path, &input.cage, &drawn),
+            Self::Grid(n) => Ok(samples::grid(&input.cage, *n, drawn)),
+            Self::List(path) => samples::read(path, &input.cage, drawn),
         }
     }
 }
@@ -148,7 +159,8 @@ impl PlacesFrom {
 type Evaluate<'a> = &'a dyn Fn(&[SurfacePoint]) -> Result<Vec<Sample>, Failure>;
 
 fn write_rows(path: Option<&Path>, places: Places, evaluate: Evaluate<'_>, global: &GlobalArgs) -> Result<(), Failure> {
-    let progress = Progress::new(global.quiet, places.len, "sampling");
+    let count = places.len;
+    let progress = Progress::new(global.quiet, count, "sampling");
     let write = |out: &mut dyn Write| -> Result<(), WriteError> {
         writeln!(out, "{}", samples::HEADER)?;
         for batch in places.batches() {
@@ -160,7 +172,10 @@ fn write_rows(path: Option<&Path>, places: Places, evaluate: Evaluate<'_>, globa
         Ok(())
     };
     match path {
-        Some(path) => whole_file::write(path, write).map_err(|error| error.to(path)),
-        None => stdout::print(write),
+        Some(path) => whole_file::write(path, write).map_err(|error| error.to(path))?,
+        None => stdout::print(write)?,
     }
+    let bytes = path.and_then(|path| std::fs::metadata(path).ok()).map(|found| format!(", {} bytes", found.len()));
+    tracing::info!("{count} places{}", bytes.unwrap_or_default());
+    Ok(())
 }

@@ -39,10 +39,18 @@ pub(crate) fn write(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     out.write_all(&json)?;
     write_sizes(out, [binary])?;
     out.write_all(b"BIN\0")?;
-    for vector in positions.iter().chain(&mesh.normals) {
-        write_floats(out, positive_zeros(*vector).to_array())?;
+    for &vector in &positions {
+        write_floats(out, positive_zeros(vector).to_array())?;
+    }
+    for &normal in &mesh.normals {
+        write_floats(out, positive_zeros(unit(normal)).to_array())?;
     }
     mesh.triangles.iter().flatten().try_for_each(|index| out.write_all(&index.to_le_bytes()))
+}
+
+/// A normal as the format wants it, of length 1 even where there is none.
+fn unit(normal: Vec3) -> Vec3 {
+    if normal == Vec3::ZERO { Vec3::Z } else { normal }
 }
 
 /// Where the node stands and what is left of the positions.
@@ -158,5 +166,11 @@ mod tests {
     #[test]
     fn an_empty_mesh_is_an_error() {
         assert!(write(&Mesh::empty(square().space), &mut Vec::new()).is_err());
+    }
+
+    #[test]
+    fn normals_have_length_1_even_where_there_are_none() {
+        assert_eq!(unit(Vec3::ZERO), Vec3::Z);
+        assert_eq!(unit(-Vec3::X), -Vec3::X);
     }
 }

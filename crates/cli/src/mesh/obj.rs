@@ -1,18 +1,18 @@
 //! Welded meshes as Wavefront OBJ. Text has no fixed precision: coordinates keep all bits however far they are from
 //! the origin.
 
-use super::{Mesh, positive_zeros};
+use super::Mesh;
+use crate::shortest::Shortest;
 use std::io::{self, Write};
 
 /// Writes the mesh: positions, normals, triangles that share the index of both.
 pub(crate) fn write(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     for vertex in 0..mesh.positions.len() {
         let p = mesh.position(vertex);
-        writeln!(out, "v {} {} {}", p.x, p.y, p.z)?;
+        writeln!(out, "v {} {} {}", Shortest(p.x), Shortest(p.y), Shortest(p.z))?;
     }
-    for &normal in &mesh.normals {
-        let n = positive_zeros(normal);
-        writeln!(out, "vn {} {} {}", n.x, n.y, n.z)?;
+    for n in &mesh.normals {
+        writeln!(out, "vn {} {} {}", Shortest(n.x), Shortest(n.y), Shortest(n.z))?;
     }
     for triangle in &mesh.triangles {
         let [a, b, c] = triangle.map(|vertex| u64::from(vertex) + 1);

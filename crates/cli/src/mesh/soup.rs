@@ -47,6 +47,11 @@ impl Soup {
         Ok(Self { space, spool: BufWriter::new(tempfile::tempfile_in(folder)?), vertices: 0 })
     }
 
+    /// How many vertices there are so far.
+    pub(crate) fn vertices(&self) -> u64 {
+        self.vertices
+    }
+
     /// Adds a vertex.
     pub(crate) fn push(&mut self, vertex: &SoupVertex) -> io::Result<()> {
         let out = &mut self.spool;

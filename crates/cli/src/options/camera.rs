@@ -12,8 +12,8 @@ use std::str::FromStr;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Camera")]
 pub(crate) struct CameraArgs {
-    /// Size of the picture in pixels.
-    #[arg(long, value_name = "WxH", default_value = "1024x1024")]
+    /// Size of the picture in pixels: each side from 1 to 16384, as far as the device has them.
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", allow_hyphen_values = true)]
     pub(crate) size: Size,
 
     /// Take the picture from EYE towards AT: three points or directions x,y,z in the units of the file, and the
@@ -21,8 +21,8 @@ pub(crate) struct CameraArgs {
     #[arg(long, value_name = "EYE:AT:UP:FOVY", allow_hyphen_values = true)]
     camera: Option<Stand>,
 
-    /// Choose a camera that shows the whole cage, from the direction (1, 0.75, 1.5) with a 45 degree angle. This is
-    /// the default.
+    /// Choose a camera that shows the whole cage, from the direction (1, 0.75, 1.5) with a vertical angle of 45
+    /// degrees. This is the default. Pictures that are narrower than high may cut the cage off at the sides.
     #[arg(long, conflicts_with = "camera")]
     fit: bool,
 }

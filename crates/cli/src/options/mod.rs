@@ -11,7 +11,7 @@ mod tessellation;
 pub(crate) use camera::CameraArgs;
 pub(crate) use colour::Colour;
 pub(crate) use level::{Level, Pixels};
-pub(crate) use output::Output;
+pub(crate) use output::{Output, check_apart, check_place};
 pub(crate) use scheme::{SchemeChoice, SchemeName};
 pub(crate) use size::Size;
 pub(crate) use tessellation::{DrawEvaluator, SpacingArg, TessellationArgs, adaptive};

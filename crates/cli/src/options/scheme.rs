@@ -23,6 +23,11 @@ pub(crate) enum SchemeName {
 impl SchemeName {
     const ALL: [Self; 5] = [Self::Gregory1, Self::Gregory2, Self::Stam, Self::Biseptic, Self::Table];
 
+    /// What the help of `--scheme` says.
+    pub(crate) fn help() -> String {
+        format!("How the surface is put together; this build has {}", in_this_build())
+    }
+
     /// The name on the command line.
     fn name(self) -> &'static str {
         match self {
@@ -61,6 +66,11 @@ impl FromStr for SchemeName {
     }
 }
 
+/// The names of the schemes of this build.
+fn in_this_build() -> String {
+    Scheme::ALL.iter().map(|scheme| scheme.name()).collect::<Vec<_>>().join(", ")
+}
+
 /// A scheme, or every one that this build draws.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum SchemeChoice {
@@ -71,6 +81,11 @@ pub(crate) enum SchemeChoice {
 }
 
 impl SchemeChoice {
+    /// What the help of `--schemes` says.
+    pub(crate) fn help() -> String {
+        format!("Schemes to prove, with commas between; this build has {}; all: every one", in_this_build())
+    }
+
     /// The schemes that a list of choices stands for, each once, in the order of the list.
     pub(crate) fn schemes(choices: &[Self]) -> Result<Vec<Scheme>, Failure> {
         let mut schemes = Vec::new();

@@ -11,19 +11,19 @@ use osculate_cage::Bounds;
 #[command(next_help_heading = "Tessellation")]
 pub(crate) struct TessellationArgs {
     /// Segments per patch edge, a real number from 1 to 64. An edge of the cage's quads carries two patch edges.
-    #[arg(long, value_name = "L", default_value = "8")]
+    #[arg(long, value_name = "L", default_value = "8", allow_negative_numbers = true)]
     level: Level,
 
     /// How a level that is not an integer is met.
     #[arg(long, value_name = "SPACING", default_value = "equal")]
     spacing: SpacingArg,
 
-    /// Choose levels so that triangle edges are about this many pixels long in the camera's picture; --level is
+    /// Choose levels so that triangle edges are at most about this many pixels long in the camera's picture; --level is
     /// ignored.
-    #[arg(long, value_name = "PX")]
+    #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     adaptive: Option<Pixels>,
 
-    /// Who evaluates the surface.
+    /// Who evaluates the surface: the tessellation stages, in this build.
     #[arg(long, value_name = "EVALUATOR", default_value = "auto")]
     evaluator: DrawEvaluator,
 }
@@ -31,6 +31,7 @@ pub(crate) struct TessellationArgs {
 impl TessellationArgs {
     /// The tessellation for a cage with this box.
     pub(crate) fn tessellation(&self, camera: &CameraArgs, bounds: Bounds) -> Result<Tessellation, Failure> {
+        self.evaluator.in_this_build()?;
         let factors = match self.adaptive {
             Some(pixels) => adaptive(pixels, camera, bounds)?,
             None => Factors::Uniform(self.level.get()),
@@ -48,11 +49,11 @@ pub(crate) fn adaptive(pixels: Pixels, camera: &CameraArgs, bounds: Bounds) -> R
 /// Names of the spacings.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum SpacingArg {
-    /// Segments of equal length; the level is rounded up.
+    /// Segments of equal length; the level is rounded up to an integer.
     Equal,
-    /// An odd number of segments, two of which grow from nothing: moves smoothly with the level.
+    /// An odd number of segments, at most 63, two of which grow from nothing: moves smoothly with the level.
     Odd,
-    /// An even number of segments, two of which grow from nothing.
+    /// An even number of segments, at least 2, two of which grow from nothing: moves smoothly too.
     Even,
 }
 
@@ -84,4 +85,18 @@ pub(crate) enum DrawEvaluator {
     Auto,
     /// The tessellation stages of the graphics pipeline.
     Tessellator,
+    /// Known to the command `sample` alone.
+    #[value(hide = true)]
+    Compute,
+}
+
+impl DrawEvaluator {
+    /// Refuses evaluators that cannot draw in this build.
+    pub(crate) fn in_this_build(self) -> Result<(), Failure> {
+        match self {
+            Self::Auto | Self::Tessellator => Ok(()),
+            Self::Compute => Err(Failure::usage("--evaluator compute: drawing with it is not in this build")
+                .with_hint("leave --evaluator away; sample --evaluator compute evaluates points")),
+        }
+    }
 }

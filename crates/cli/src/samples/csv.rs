@@ -1,5 +1,6 @@
 //! Rows of `sample`.
 
+use crate::shortest::Shortest;
 use osculate::{Sample, SubFace, SurfacePoint};
 use std::io::{self, Write};
 
@@ -9,9 +10,9 @@ pub(crate) const HEADER: &str = "face,sub,s,t,px,py,pz,dux,duy,duz,dvx,dvy,dvz,n
 /// Writes a row. Numbers have the fewest digits that read back as the same number.
 pub(crate) fn write_row(out: &mut dyn Write, place: &SurfacePoint, found: &Sample) -> io::Result<()> {
     let SurfacePoint { sub_face: SubFace { face, sub }, s, t } = place;
-    write!(out, "{face},{sub},{s},{t}")?;
+    write!(out, "{face},{sub},{},{}", Shortest(*s), Shortest(*t))?;
     for vector in [found.position, found.du, found.dv, found.normal] {
-        write!(out, ",{},{},{}", vector.x, vector.y, vector.z)?;
+        write!(out, ",{},{},{}", Shortest(vector.x), Shortest(vector.y), Shortest(vector.z))?;
     }
     writeln!(out, ",{}", u8::from(found.irregular))
 }
@@ -34,7 +35,7 @@ mod tests {
         let mut row = Vec::new();
         write_row(&mut row, &place, &found).unwrap();
         let row = String::from_utf8(row).unwrap();
-        assert!(row.starts_with("3,-1,0.1,1,0.3333333333333333,-0.0000000000025,1000000,1,0,0,"), "{row}");
+        assert!(row.starts_with("3,-1,0.1,1,0.3333333333333333,-2.5e-12,1e6,1,0,0,"), "{row}");
         assert!(row.ends_with(",0,0,0,1\n"), "{row}");
         let cells: Vec<f64> = row.trim_end().split(',').map(|cell| cell.parse().unwrap()).collect();
         assert_eq!(cells.len(), HEADER.split(',').count());

@@ -11,11 +11,11 @@ use std::path::Path;
 pub(crate) fn read(path: &Path, cage: &Cage, drawn: &[bool]) -> Result<Places, Failure> {
     let refused = |line: usize, why: String| {
         Failure::input(format_args!("{}:{}: {why}", path.display(), line + 1)).with_hint(
-            "each line is face,sub,s,t; sub is -1 for a quad and else a corner of the face, s and t are in 0..1",
+            "each line is face,sub,s,t; sub is -1 for a quad and else a corner of the face, s and t are from 0 to 1",
         )
     };
-    let text =
-        std::fs::read_to_string(path).map_err(|error| Failure::input(format_args!("{}: {error}", path.display())))?;
+    let text = std::fs::read_to_string(path)
+        .map_err(|error| Failure::unreadable(format_args!("{}: {error}", path.display())))?;
     let mut places = Vec::new();
     for (line, text) in text.trim_start_matches('\u{feff}').lines().enumerate() {
         let text = text.trim();
@@ -39,18 +39,20 @@ fn parse(text: &str) -> Option<SurfacePoint> {
     })
 }
 
+/// What faces there are.
+fn faces(count: usize) -> String {
+    if count == 1 { "the only face is 0".into() } else { format!("the faces are 0 to {}", count - 1) }
+}
+
 fn check(place: &SurfacePoint, cage: &Cage, drawn: &[bool]) -> Result<(), String> {
     let SurfacePoint { sub_face: SubFace { face, sub }, s, t } = *place;
     if face as usize >= cage.face_count() {
-        return Err(format!("there is no face {face}; the faces are 0..{}", cage.face_count()));
+        return Err(format!("there is no face {face}; {}", faces(cage.face_count())));
     }
     let corners = cage.face(face as usize).len();
     if !sub_faces(corners).contains(&sub) {
-        let range = sub_faces(corners);
-        return Err(format!(
-            "face {face} has {corners} corners, so sub is one of {}..{}, not {sub}",
-            range.start, range.end
-        ));
+        let subs = if corners == 4 { "-1".to_owned() } else { format!("from 0 to {}", corners - 1) };
+        return Err(format!("face {face} has {corners} corners, so sub must be {subs}, not {sub}"));
     }
     if !((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)) {
         return Err(format!("(s,t) = ({s},{t}) is not in the unit square"));

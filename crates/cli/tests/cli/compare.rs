@@ -52,7 +52,12 @@ fn figures_as_json() {
         let ran = osculate(folder.path(), &["compare", "a.png", other, "--json"]).exits(code);
         let json: serde_json::Value = serde_json::from_str(&ran.stdout).unwrap();
         assert_eq!(json["same"], same, "{other}: {json}");
-        assert!(json.get("reason").is_some() || json["mean_limit"] == 0.002, "{other}: {json}");
+        assert_eq!(json["mean_limit"], 0.002, "{other}: {json}");
+        let compared = other != "wide.png";
+        assert_eq!(json.get("reason").is_none(), compared, "{other}: {json}");
+        for figure in ["mean", "p99", "max", "alpha"] {
+            assert_eq!(json.get(figure).map(serde_json::Value::is_number), Some(compared), "{other}: {json}");
+        }
     }
 }
 
@@ -71,6 +76,17 @@ fn limits_and_places_are_checked_before_anything_is_read() {
     run(&["--mean", "2"]).fails(2, "--mean");
     run(&["--p99", "nan"]).fails(2, "--p99");
     run(&["--p99", "little"]).fails(2, "--p99");
+    run(&["--mean", "-0.1"]).fails(2, "FLIP values are from 0 to 1");
     run(&["-o", "diff.jpg"]).fails(2, "diff.jpg");
     run(&["-o", "no/diff.png"]).fails(2, "no/diff.png");
+}
+
+#[test]
+fn a_difference_of_alpha_is_named_and_inputs_are_kept() {
+    let folder = pictures();
+    let clear = Picture::new(16, 16, [128, 128, 128, 0].repeat(256)).unwrap();
+    clear.write(&folder.path().join("clear.png")).unwrap();
+    let ran = osculate(folder.path(), &["compare", "a.png", "clear.png"]).exits(1);
+    assert!(ran.stdout.contains("255/255 (alpha differs)"), "{}", ran.stdout);
+    osculate(folder.path(), &["compare", "a.png", "b.png", "-o", "b.png"]).fails(2, "is also the input");
 }

@@ -9,6 +9,9 @@ fn devices_are_listed_with_index_name_kind_and_driver() {
     let folder = tempdir().unwrap();
     let ran = osculate(folder.path(), &["--list-devices"]).exits(0);
     assert_eq!(ran.stderr, "");
+    for elsewhere in [&["render", "--list-devices"][..], &["--list-devices", "inspect", "cage.obj"]] {
+        assert_eq!(command(folder.path(), elsewhere).output().unwrap().stdout, ran.stdout.as_bytes());
+    }
     for (index, line) in ran.stdout.lines().enumerate() {
         assert!(line.trim_start().starts_with(&format!("{index}  ")), "{line}");
         let kinds = ["discrete", "integrated", "virtual", "cpu", "other"];

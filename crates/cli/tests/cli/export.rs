@@ -122,3 +122,20 @@ fn formats_are_checked_first() {
     run(&["-o", "out.ply", "--scheme", "table"]).fails(2, "table");
     run(&["-o", "out.ply"]).fails(3, "missing.obj");
 }
+
+#[test]
+fn formats_too_coarse_for_the_place_are_pointed_out() {
+    let folder = tempdir().unwrap();
+    let far = "v 1e7 0 0\nv 10000001 0 0\nv 10000001 1 0\nv 1e7 1 0\nf 1 2 3 4\n";
+    fs::write(folder.path().join("far.obj"), far).unwrap();
+    let export = |output| osculate(folder.path(), &["export", "far.obj", "--level", "1", "-o", output]).exits(0).stderr;
+    for coarse in ["a.ply", "a.stl"] {
+        assert!(
+            export(coarse).starts_with(&format!("warning: {coarse}: its 32-bit numbers are 1.0e0 apart")),
+            "{coarse}"
+        );
+    }
+    for fine in ["a.obj", "a.glb"] {
+        assert_eq!(export(fine), "");
+    }
+}

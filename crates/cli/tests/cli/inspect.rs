@@ -29,6 +29,7 @@ fn json_has_the_keys_of_the_contract() {
         ("creases", json!(0)),
         ("corners", json!(0)),
         ("holes", json!(0)),
+        ("boundary_rule", json!("edge-and-corner")),
         ("problems", json!([])),
     ] {
         assert_eq!(found[key], value, "{key}");

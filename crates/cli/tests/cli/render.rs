@@ -59,7 +59,7 @@ fn backgrounds_are_the_colours_that_were_asked_for() {
 fn the_camera_looks_where_it_is_told() {
     let folder = folder();
     let middle = |camera| pixel(&render(&folder, &["--camera", camera, "--background", "white"]), 32, 24);
-    assert_eq!(middle("0,0,5:9,0,5:0,1,0:45"), [255; 4]);
+    assert_eq!(middle("-1,0.5,5:3,0.5,0:0,1,0:45"), [255; 4]);
     assert_ne!(middle("-1,0.5,5:1,0.5,0:0,1,0:45"), [255; 4]);
     let fit = render(&folder, &["--fit"]);
     assert_eq!(fit, render(&folder, &[]));
@@ -84,10 +84,22 @@ fn what_cannot_be_drawn_exits_before_or_after_reading() {
     run(&["-o", "out.png", "--level", "0.5"]).fails(2, "1 to 64");
     run(&["-o", "out.png", "--shade", "matte"]).fails(2, "possible values: lit");
     run(&["-o", "out.png", "--samples", "3"]).fails(2, "--samples");
-    run(&["-o", "out.png", "--evaluator", "compute"]).fails(2, "possible values: auto, tessellator");
+    run(&["-o", "out.png", "--evaluator", "compute"]).fails(2, "not in this build");
+    run(&["-o", "out.png", "--size", "-1x5"]).fails(2, "each from 1 to 16384");
+    run(&["-o", "out.png", "--adaptive", "-1"]).fails(2, "greater than 0");
+    run(&["-o", "-"]).fails(2, "cannot write to stdout");
     run(&["-o", "out.png", "--camera", "1,2,3:1,2,3:0,1,0:45"]).fails(2, "two different points");
     run(&["-o", "out.png", "--camera", "1,2,3:0,0,0:0,1,0:45", "--fit"]).fails(2, "--fit");
     run(&["-o", "out.png", "--scheme", "stam"]).fails(2, "it has gregory2");
     run(&["-o", "out.png", "--boundary", "none"]).fails(3, "cage.obj: no face is left");
     assert!(!folder.path().join("out.png").exists());
+}
+
+#[test]
+fn blank_pictures_are_pointed_out() {
+    let folder = folder();
+    let away = ["render", "cage.obj", "-o", "out.png", "--size", "64x48", "--camera", "0,0,5:9,0,5:0,1,0:45"];
+    let ran = osculate(folder.path(), &away).exits(0);
+    assert!(ran.stderr.starts_with("warning: out.png: the picture is blank"), "{}", ran.stderr);
+    assert_eq!(ran.stderr.lines().count(), 1, "{}", ran.stderr);
 }

@@ -61,7 +61,12 @@ fn lists_with_wrong_places_exit_with_3() {
     let folder = folder();
     fs::write(folder.path().join("points.csv"), "0,-1,0.5,0.5\n9,-1,0,0\n").unwrap();
     let run = |more: &[&str]| osculate(folder.path(), &[&REFERENCE[..], more].concat());
-    run(&["--at", "points.csv"]).fails(3, "points.csv:2: there is no face 9");
+    run(&["--at", "points.csv"]).fails(3, "points.csv:2: there is no face 9; the faces are 0 to 2");
+    for (place, part) in [("0,0,0,0", "sub must be -1, not 0"), ("1,3,0,0", "sub must be from 0 to 2, not 3")] {
+        fs::write(folder.path().join("place.csv"), place).unwrap();
+        run(&["--at", "place.csv"]).fails(3, part);
+    }
+    run(&["--grid", "-1"]).fails(2, "expected a whole number from 1");
     run(&["--at", "missing.csv"]).fails(3, "missing.csv");
     run(&["--at", "points.csv", "--grid", "3"]).fails(2, "--grid");
 }
@@ -74,7 +79,12 @@ fn a_failed_run_leaves_no_file() {
     let mut names: Vec<_> = fs::read_dir(folder.path()).unwrap().map(|e| e.unwrap().file_name()).collect();
     names.sort();
     assert_eq!(names, ["cage.obj", "points.csv"]);
-    osculate(folder.path(), &[&REFERENCE[..], &["-o", "no/out.csv"]].concat()).fails(2, "no/out.csv");
+    osculate(folder.path(), &[&REFERENCE[..], &["-o", "no/out.csv"]].concat()).fails(2, "its folder does not exist");
+    let before = fs::read(folder.path().join("cage.obj")).unwrap();
+    osculate(folder.path(), &[&REFERENCE[..], &["-o", "./cage.obj"]].concat()).fails(2, "is also the input");
+    osculate(folder.path(), &[&REFERENCE[..], &["--at", "points.csv", "-o", "points.csv"]].concat())
+        .fails(2, "is also the input");
+    assert_eq!(fs::read(folder.path().join("cage.obj")).unwrap(), before);
 }
 
 #[test]
@@ -92,7 +102,10 @@ fn the_boundary_rule_is_the_option_else_the_files_tag() {
     assert!(sample("tagged.obj", &[]) == smooth, "2 is edge-only");
     assert!(sample("tagged.obj", &["--boundary", "edge-and-corner"]) == sharp);
     // Every face of this cage touches the boundary.
-    assert_eq!(rows(&sample("cage.obj", &["--boundary", "none"])).len(), 0);
+    for evaluator in ["reference", "auto"] {
+        let ran = osculate(folder.path(), &["sample", "cage.obj", "--evaluator", evaluator, "--boundary", "none"]);
+        ran.fails(3, "cage.obj: no face is left to draw");
+    }
 }
 
 #[test]
