@@ -98,7 +98,8 @@ fn refusal(error: ReadError) -> Failure {
     match error {
         ReadError::Io { .. } => Failure::unreadable(error),
         ReadError::UnknownFormat { .. } => Failure::input(error).with_hint("convert the model to one of these formats"),
-        _ => Failure::input(error)
-            .with_hint("the cage must be a manifold mesh in OBJ or glTF; correct the file as the message says"),
+        ReadError::Refused { .. } => Failure::input(error)
+            .with_hint("correct the model: a cage is a manifold mesh, and its tags name elements that exist"),
+        _ => Failure::input(error).with_hint("correct the file there, or export the model again"),
     }
 }

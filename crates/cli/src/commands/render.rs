@@ -68,7 +68,7 @@ enum ShadeArg {
     Lit,
     /// The unit normal as a colour: red, green, blue are 0.5 + 0.5 n.
     Normals,
-    /// The patches by kind: grey is bicubic and exact, other colours are Gregory patches by valence.
+    /// The patches by kind: off-white and blue are bicubic and exact, other colours are Gregory patches by valence.
     Patches,
     /// The patches by the valence of their irregular vertex; paler where regular at a boundary.
     Valence,
