@@ -1,36 +1,12 @@
 //! Biseptic matrices against reference data from another implementation. Run with `--nocapture` to see the figures.
 
+mod reference_data;
 mod star;
-
-use std::path::PathBuf;
 
 use glam::DVec3;
 use osculate_surface::{Matrix, NetKind, biseptic};
-use serde_json::Value;
+use reference_data::{net, numbers, point, reference, rows};
 use star::Star;
-
-fn reference(name: &str) -> Value {
-    let folder = std::env::var_os("OSCULATE_REFERENCE").expect("OSCULATE_REFERENCE names the folder of reference data");
-    let path = PathBuf::from(folder).join("math").join(name);
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().expect("array").iter().map(|x| x.as_f64().expect("number")).collect()
-}
-
-fn rows(value: &Value) -> Vec<Vec<f64>> {
-    value.as_array().expect("array").iter().map(numbers).collect()
-}
-
-fn point(value: &Value) -> DVec3 {
-    DVec3::from_slice(&numbers(value))
-}
-
-fn net(value: &Value) -> Vec<DVec3> {
-    value.as_array().expect("array").iter().map(point).collect()
-}
 
 /// The largest difference of `expected` to the rows of `own` from `first` on; columns that it lacks are zero.
 fn largest_difference(own: &Matrix, first: usize, expected: &[Vec<f64>]) -> f64 {

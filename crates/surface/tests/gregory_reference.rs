@@ -1,37 +1,14 @@
 //! Gregory matrices against reference data from another implementation, and their distance to the exact limit on its
 //! nets. Run with `--nocapture` to see the figures.
 
+mod reference_data;
 mod star;
-
-use std::path::PathBuf;
 
 use glam::DVec3;
 use osculate_surface::{Matrix, NetKind, bezier, gregory};
+use reference_data::{net, numbers, point, reference, rows};
 use serde_json::Value;
 use star::{Star, degrees};
-
-fn reference(name: &str) -> Value {
-    let folder = std::env::var_os("OSCULATE_REFERENCE").expect("OSCULATE_REFERENCE names the folder of reference data");
-    let path = PathBuf::from(folder).join("math").join(name);
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    value.as_array().expect("array").iter().map(|x| x.as_f64().expect("number")).collect()
-}
-
-fn rows(value: &Value) -> Vec<Vec<f64>> {
-    value.as_array().expect("array").iter().map(numbers).collect()
-}
-
-fn point(value: &Value) -> DVec3 {
-    DVec3::from_slice(&numbers(value))
-}
-
-fn net(value: &Value) -> Vec<DVec3> {
-    value.as_array().expect("array").iter().map(point).collect()
-}
 
 fn integer(value: &Value) -> u32 {
     value.as_u64().and_then(|x| u32::try_from(x).ok()).expect("small integer")

@@ -1,35 +1,15 @@
 //! Against reference data from another implementation.
 
-use std::path::PathBuf;
-
 use glam::DVec3;
 use osculate_surface::stam::Patch;
 use osculate_surface::{Matrix, NetKind, gregory};
 use serde_json::Value;
 
 use crate::fixtures::{crease, gap, interior};
-
-fn reference(name: &str) -> Value {
-    let folder = std::env::var_os("OSCULATE_REFERENCE").expect("OSCULATE_REFERENCE names the folder of reference data");
-    let path = PathBuf::from(folder).join("math").join(name);
-    let text = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
-    serde_json::from_str(&text).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
-}
+use crate::reference_data::{net, numbers, reference, rows};
 
 fn array(value: &Value) -> &[Value] {
     value.as_array().expect("array")
-}
-
-fn numbers(value: &Value) -> Vec<f64> {
-    array(value).iter().map(|x| x.as_f64().expect("number")).collect()
-}
-
-fn rows(value: &Value) -> Vec<Vec<f64>> {
-    array(value).iter().map(numbers).collect()
-}
-
-fn net(value: &Value) -> Vec<DVec3> {
-    rows(value).iter().map(|p| DVec3::from_slice(p)).collect()
 }
 
 fn integer(value: &Value) -> u32 {

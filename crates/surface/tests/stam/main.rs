@@ -4,6 +4,8 @@
 mod data;
 mod exact;
 mod fixtures;
+#[path = "../reference_data/mod.rs"]
+mod reference_data;
 mod sides;
 #[path = "../star/mod.rs"]
 mod star;
