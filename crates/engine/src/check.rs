@@ -220,3 +220,37 @@ fn parameter_area(triangle: &[CapturedVertex]) -> f64 {
     let [a, b, c] = [0, 1, 2].map(|i| triangle[i].uv.map(f64::from));
     (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 }
+
+#[cfg(test)]
+mod tests {
+    use osculate_cage::read_obj;
+    use osculate_subdiv::PlanDesc;
+
+    use super::*;
+
+    /// An open sheet of one quad: eight patch edges on its boundary.
+    fn sheet() -> SurfacePlan {
+        let cage = read_obj(b"v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n", "sheet.obj").unwrap();
+        SurfacePlan::build(&cage, &PlanDesc::default()).unwrap()
+    }
+
+    #[test]
+    fn patches_that_are_not_drawn_are_counted() {
+        let report = Proof::new(&sheet()).finish(8);
+        assert_eq!((report.wrong_patches, report.open), (4, 0));
+        assert!(!report.is_watertight());
+    }
+
+    #[test]
+    fn a_boundary_that_the_cage_lacks_is_open() {
+        assert_eq!(Proof::new(&sheet()).finish(6).open, 2);
+    }
+
+    #[test]
+    fn patches_that_do_not_exist_are_counted() {
+        let plan = sheet();
+        let mut proof = Proof::new(&plan);
+        proof.add(&[CapturedVertex { patch: 99, ..CapturedVertex::default() }; 3]);
+        assert_eq!(proof.finish(8).wrong_patches, 5);
+    }
+}

@@ -15,7 +15,7 @@ use crate::{Camera, Engine, EngineError, Surface, Tessellation};
 /// What the colours of a picture mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Shade {
-    /// Clay under three lights.
+    /// Porcelain under three lights; the inside of an open surface is blue-grey.
     #[default]
     Lit,
     /// The normal as a colour.

@@ -161,3 +161,19 @@ fn unit_or_zero(a: Vec3) -> Vec3 {
     let b = a / largest;
     b / ((b.x * b.x + b.y * b.y) + b.z * b.z).sqrt()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Devices may flush subnormal numbers to zero, and dividing by one would then give no number.
+    #[test]
+    fn unit_vectors_exist_down_to_normal_numbers() {
+        for size in [1e30, 1.0, 1e-18, 1e-37] {
+            assert!((unit_or_zero(Vec3::new(size, 2.0 * size, -2.0 * size)).length() - 1.0).abs() < 1e-6, "{size:e}");
+        }
+        for size in [1e-40, 0.0, f32::NAN] {
+            assert_eq!(unit_or_zero(Vec3::splat(size)), Vec3::ZERO, "{size:e}");
+        }
+    }
+}
