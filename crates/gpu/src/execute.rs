@@ -82,9 +82,16 @@ impl<'a> Encoder<'a> {
 
     fn draws(&self, draws: &[DrawCall<'_>]) {
         for run in runs(draws) {
-            self.bind_pipeline(&run[0].call);
-            run.iter().for_each(|draw| self.draw(draw));
+            self.run(run);
         }
+    }
+
+    /// Draws of one pipeline, under its name.
+    fn run(&self, run: &[DrawCall<'_>]) {
+        self.begin_label(&run[0].call.pipeline.name);
+        self.bind_pipeline(&run[0].call);
+        run.iter().for_each(|draw| self.draw(draw));
+        self.end_label();
     }
 
     /// Draws with the pipeline that is bound.

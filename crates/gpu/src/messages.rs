@@ -42,14 +42,15 @@ impl MessageLog {
 }
 
 impl Messages {
-    /// Keeps one message unless it is allowed or the log is full.
-    fn push(&self, id: &str, text: &str) {
+    /// Keeps one message, and the name of the pass it is about, unless it is allowed or the log is full.
+    fn push(&self, pass: &str, id: &str, text: &str) {
         if ALLOWED.iter().any(|allowed| id.contains(allowed)) {
             return;
         }
         let mut messages = self.lock();
         if messages.len() < CAPACITY {
-            messages.push(format!("{id}: {text}"));
+            let place = if pass.is_empty() { String::new() } else { format!("in {pass:?}: ") };
+            messages.push(format!("{place}{id}: {text}"));
         }
     }
 
@@ -70,11 +71,23 @@ unsafe extern "system" fn callback(
     // alive during the call, or null.
     let (log, data) = unsafe { (user_data.cast_const().cast::<Messages>().as_ref(), data.as_ref()) };
     if let (Some(log), Some(data)) = (log, data) {
-        // SAFETY: both strings are null or end with a NUL, and live during the call.
-        let (id, text) = unsafe { (text(data.p_message_id_name), text(data.p_message)) };
-        log.push(&id, &text);
+        // SAFETY: both strings are null or end with a NUL, and live during the call, as the labels do.
+        let (id, text, label) = unsafe { (text(data.p_message_id_name), text(data.p_message), label(data)) };
+        log.push(&label, &id, &text);
     }
     vk::FALSE
+}
+
+/// The innermost label that stands around the command that a message is about; empty if there is none.
+///
+/// # Safety
+/// `data` comes from the layers.
+unsafe fn label(data: &vk::DebugUtilsMessengerCallbackDataEXT<'_>) -> String {
+    if data.cmd_buf_label_count == 0 || data.p_cmd_buf_labels.is_null() {
+        return String::new();
+    }
+    // SAFETY: so many labels lie there, the latest first, each with a string that ends with a NUL.
+    unsafe { text((*data.p_cmd_buf_labels).p_label_name) }
 }
 
 /// The string at `pointer`, empty for null.
@@ -96,15 +109,15 @@ mod tests {
     #[test]
     fn allowed_messages_are_dropped_and_others_kept() {
         let log = MessageLog::default();
-        log.0.push("UNASSIGNED-CoreValidation-Shader-OutputNotConsumed", "noise");
-        log.0.push("VUID-vkCmdDraw-None-02697", "not bound");
-        assert_eq!(log.all(), ["VUID-vkCmdDraw-None-02697: not bound"]);
+        log.0.push("", "UNASSIGNED-CoreValidation-Shader-OutputNotConsumed", "noise");
+        log.0.push("picture", "VUID-vkCmdDraw-None-02697", "not bound");
+        assert_eq!(log.all(), ["in \"picture\": VUID-vkCmdDraw-None-02697: not bound"]);
     }
 
     #[test]
     fn the_log_does_not_grow_without_bound() {
         let log = MessageLog::default();
-        (0..CAPACITY + 5).for_each(|i| log.0.push("id", &i.to_string()));
+        (0..CAPACITY + 5).for_each(|i| log.0.push("", "id", &i.to_string()));
         assert_eq!(log.all().len(), CAPACITY);
     }
 }

@@ -164,3 +164,32 @@ impl<'a> StageData<'a> {
             .specialization_info(specialization)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::DeviceDesc;
+    use osculate_shader_compiler::{CompileDesc, compile};
+
+    /// What validation calls an object is the name that tools show. It lists those that outlive their device, which only the
+    /// disregard for `Owned` here makes happen.
+    #[test]
+    fn validation_knows_pipelines_by_name() {
+        let select = std::env::var("OSCULATE_DEVICE").ok();
+        let device = Device::new(&DeviceDesc { select, validation: true, ..DeviceDesc::default() }).unwrap();
+        let log = device.message_log();
+        let spirv = compile(&CompileDesc::new("empty.comp", "#version 460\nvoid main() {}")).unwrap();
+        let shader = device.shader("empty.comp", &spirv).unwrap();
+        let make = |name| {
+            device.compute_pipeline(&ComputePipelineDesc { name, shader: &shader, specialization: &[] }).unwrap()
+        };
+        let (kept, mut forgotten) = (make("the pipeline kept"), make("the pipeline forgotten"));
+        Arc::get_mut(&mut forgotten.inner).unwrap().raw.raw = vk::Pipeline::null();
+        drop((kept, forgotten, shader, device));
+        let messages = log.all();
+        assert!(
+            !messages.is_empty() && messages.iter().all(|one| one.contains("the pipeline forgotten")),
+            "{messages:?}"
+        );
+    }
+}

@@ -101,6 +101,7 @@ impl Device {
         // SAFETY: the pool is new and ours.
         let buffers = unsafe { self.raw().allocate_command_buffers(&info) }.map_err(failed)?;
         let buffer = *buffers.first().ok_or_else(|| failed(vk::Result::ERROR_UNKNOWN))?;
+        self.shared.raw.set_name(buffer, "commands");
         Ok(Commands { pool, buffer })
     }
 
@@ -176,12 +177,19 @@ impl std::fmt::Debug for Submission {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{BufferUsage, DeviceDesc, barrier::Barriers};
+    use crate::{Bindings, BufferUsage, ComputePass, ComputePipelineDesc, DeviceDesc, barrier::Barriers, plan::Work};
+    use osculate_shader_compiler::{CompileDesc, compile};
+
+    const EMPTY: &str = "#version 460\nvoid main() {}";
+
+    fn device() -> Device {
+        let select = std::env::var("OSCULATE_DEVICE").ok();
+        Device::new(&DeviceDesc { select, validation: true, ..DeviceDesc::default() }).unwrap()
+    }
 
     /// What validation says of two copies, the second of which reads what the first writes, behind the given barriers.
     fn messages(barriers: impl Fn(&Plan<'_>) -> Vec<Barriers>) -> Vec<String> {
-        let select = std::env::var("OSCULATE_DEVICE").ok();
-        let device = Device::new(&DeviceDesc { select, validation: true, ..DeviceDesc::default() }).unwrap();
+        let device = device();
         let buffers = ["a", "b", "c"].map(|name| device.upload(name, BufferUsage::empty(), &[0u32; 4]).unwrap());
         let mut recording = Recording::new();
         buffers.windows(2).for_each(|pair| recording.copy_buffer(&pair[0], 0..16, &pair[1], 0));
@@ -204,5 +212,32 @@ mod tests {
         assert_eq!(messages(derived), [""; 0]);
         let found = messages(|plan| plan.steps.iter().map(|_| Barriers::default()).collect());
         assert!(found.iter().any(|message| message.contains("SYNC-HAZARD-READ-AFTER-WRITE")), "{found:?}");
+    }
+
+    /// The name of the pass stands in messages: here in that of a dispatch that is too large, which `plan` would not let through.
+    #[test]
+    fn messages_name_the_pass() {
+        let device = device();
+        let shader = device.shader("empty.comp", &compile(&CompileDesc::new("empty.comp", EMPTY)).unwrap()).unwrap();
+        let desc = ComputePipelineDesc { name: "empty", shader: &shader, specialization: &[] };
+        let pipeline = device.compute_pipeline(&desc).unwrap();
+        let mut recording = Recording::new();
+        for name in ["first pass", "second pass"] {
+            let (name, pipeline, bindings) = (name.to_owned(), pipeline.clone(), Bindings::new());
+            recording.compute(ComputePass { name, pipeline, bindings, push: vec![], groups: [1; 3] });
+        }
+        let mut plan = Plan::new(&device, &recording).unwrap();
+        if let Work::Dispatch { groups, .. } = &mut plan.steps[1].work {
+            groups[0] = u32::MAX;
+        }
+        let queries = Queries::new(&device, &recording).unwrap();
+        let commands = device.begin(&mut device.queue()).unwrap();
+        // SAFETY: as in `hand_over`, and the commands are never submitted.
+        unsafe { Encoder::new(&device, commands.buffer, &plan.kept, &queries) }
+            .encode(&plan.steps, &[Barriers::default(), Barriers::default()]);
+        let messages = device.validation_messages();
+        let [message] = messages.as_slice() else { panic!("{messages:?}") };
+        assert!(message.starts_with("in \"second pass\": VUID-vkCmdDispatch-groupCountX"), "{message}");
+        assert!(message.contains("name = commands"), "{message}");
     }
 }

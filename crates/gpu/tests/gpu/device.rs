@@ -1,7 +1,7 @@
 //! Opening devices, and the pipeline cache.
 
 use osculate_gpu::{
-    ComputePipelineDesc, Device, DeviceDesc, DeviceError, GraphicsPipeline, Recording, Submission, devices,
+    ComputePipelineDesc, Device, DeviceDesc, DeviceError, GraphicsPipeline, Recording, Shader, Submission, devices,
 };
 
 use crate::harness::{open, shader, with_device};
@@ -69,22 +69,92 @@ fn handles_can_be_sent_between_threads() {
     check::<Submission>();
 }
 
+/// Makes a pipeline with a constant of its own.
+fn make_pipeline(device: &Device, shader: &Shader, number: u32) {
+    let desc = ComputePipelineDesc { name: "nothing", shader, specialization: &[(0, number)] };
+    device.compute_pipeline(&desc).unwrap();
+}
+
+fn nothing(device: &Device) -> Shader {
+    shader(device, "nothing.comp", "layout(constant_id = 0) const uint n = 0; void main() {}")
+}
+
 #[test]
 fn the_pipeline_cache_is_saved_and_loaded() {
     let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("pipelines");
+    let path = folder.path().join("new/folder").join(open(false).pipeline_cache_name());
     with_device(|device| {
         assert!(!device.load_pipeline_cache(&path).unwrap(), "there is no file yet");
-        let shader = shader(device, "nothing.comp", "void main() {}");
-        let desc = ComputePipelineDesc { name: "nothing", shader: &shader, specialization: &[] };
-        device.compute_pipeline(&desc).unwrap();
+        make_pipeline(device, &nothing(device), 1);
+        assert!(device.save_pipeline_cache(&path).unwrap());
+        assert!(!device.save_pipeline_cache(&path).unwrap(), "there is nothing new to save");
+        let files = std::fs::read_dir(path.parent().unwrap()).unwrap();
+        assert_eq!(files.count(), 1, "no temporary file is left");
+    });
+    with_device(|device| {
+        make_pipeline(device, &nothing(device), 2);
+        assert!(device.load_pipeline_cache(&path).unwrap(), "a new device uses the file, having made pipelines, too");
+        make_pipeline(device, &nothing(device), 1);
         device.save_pipeline_cache(&path).unwrap();
         assert!(device.load_pipeline_cache(&path).unwrap());
-        device.compute_pipeline(&desc).unwrap();
-        assert_eq!(std::fs::read_dir(&folder).unwrap().count(), 1, "no temporary file is left");
-        std::fs::write(&path, b"damaged").unwrap();
-        assert!(!device.load_pipeline_cache(&path).unwrap());
-        let error = device.save_pipeline_cache(&folder.path().join("no/such/folder")).unwrap_err();
-        assert!(error.to_string().contains("no/such/folder"), "{error}");
+    });
+}
+
+#[test]
+fn damaged_pipeline_caches_are_ignored_and_replaced() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pipelines");
+    with_device(|device| {
+        device.save_pipeline_cache(&path).unwrap();
+        let whole = std::fs::read(&path).unwrap();
+        let mut flipped = whole.clone();
+        flipped[40] ^= 0x10;
+        for damaged in [&b"damaged"[..], b"", &whole[..whole.len() - 1], &whole[..16], &flipped] {
+            std::fs::write(&path, damaged).unwrap();
+            assert!(!device.load_pipeline_cache(&path).unwrap(), "{} bytes", damaged.len());
+            assert!(device.save_pipeline_cache(&path).unwrap());
+            assert_eq!(std::fs::read(&path).unwrap(), whole);
+        }
+    });
+}
+
+#[test]
+fn pipeline_caches_that_cannot_be_used_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, inside) = (folder.path().join("file"), folder.path().join("file/pipelines"));
+    std::fs::write(&file, "").unwrap();
+    with_device(|device| {
+        let errors = [
+            device.save_pipeline_cache(&inside).unwrap_err(),
+            device.load_pipeline_cache(&inside).unwrap_err(),
+            device.load_pipeline_cache(folder.path()).unwrap_err(),
+        ];
+        for error in errors.map(|error| error.to_string()) {
+            assert!(error.starts_with("pipeline cache ") && error.contains(folder.path().to_str().unwrap()), "{error}");
+        }
+    });
+}
+
+/// Threads that make, load and save at the same time: every file is whole, and validation has nothing to say of objects that
+/// two threads use at once.
+#[test]
+fn pipelines_are_made_and_kept_by_several_threads() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pipelines");
+    with_device(|device| {
+        let shader = nothing(device);
+        device.save_pipeline_cache(&path).unwrap();
+        std::thread::scope(|scope| {
+            for thread in 0..4 {
+                let (path, shader) = (&path, &shader);
+                scope.spawn(move || {
+                    for round in 0..10 {
+                        make_pipeline(device, shader, 10 * thread + round);
+                        device.save_pipeline_cache(path).unwrap();
+                        assert!(device.load_pipeline_cache(path).unwrap(), "a file is whole at any time");
+                    }
+                });
+            }
+        });
     });
 }
