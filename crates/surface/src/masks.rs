@@ -100,6 +100,14 @@ pub fn crease(faces: u32) -> Matrix {
     rows
 }
 
+/// Limit position and two tangents of a boundary vertex with one face that stays where it is, over V, E0, F0, E1: 3 x 4.
+/// Row 1 x row 2 is the outward normal.
+///
+/// The derivatives of the bicubic with points reflected beyond both boundaries: towards E0 and towards E1.
+pub fn corner() -> Matrix {
+    Matrix::from_rows(&[vec![1.0, 0.0, 0.0, 0.0], vec![-1.0, 1.0, 0.0, 0.0], vec![-1.0, 0.0, 0.0, 1.0]])
+}
+
 /// Row 2 of [`crease`].
 ///
 /// The sine values on E1..E(k-1) and the faces are the odd left eigenvector of the smooth ring of valence 2k; the

@@ -1,28 +1,51 @@
 //! The one-ring of a patch corner in terms of the patch's net, and what Gregory patches read from it.
 
+use glam::DVec3;
+
 use crate::angle::turn;
 use crate::masks;
 use crate::matrix::Matrix;
 use crate::net::{NetKind, Point};
 
+use super::edge::CrossEnd;
+use super::vertex_fan::Fan;
+
 /// A row of weights over the points of a net.
 pub(super) type Weights = Vec<f64>;
 
-/// The combination `sum factor * row` of rows of equal length.
-pub(super) fn combine(terms: &[(f64, &Weights)]) -> Weights {
-    let mut out = vec![0.0; terms[0].1.len()];
-    for &(factor, row) in terms {
-        for (o, w) in out.iter_mut().zip(row) {
-            *o += factor * w;
+/// Points, or rows of weights that stand for points.
+pub(super) trait Combine: Clone {
+    /// The combination `sum factor * row`; rows are of equal length.
+    fn combine(terms: &[(f64, &Self)]) -> Self;
+}
+
+impl Combine for Weights {
+    fn combine(terms: &[(f64, &Self)]) -> Self {
+        let mut out = vec![0.0; terms[0].1.len()];
+        for &(factor, row) in terms {
+            for (o, w) in out.iter_mut().zip(row) {
+                *o += factor * w;
+            }
         }
+        out
     }
-    out
+}
+
+impl Combine for DVec3 {
+    fn combine(terms: &[(f64, &Self)]) -> Self {
+        terms.iter().map(|&(factor, &point)| factor * point).sum()
+    }
+}
+
+/// [`Combine::combine`] of rows.
+pub(super) fn combine(terms: &[(f64, &Weights)]) -> Weights {
+    Weights::combine(terms)
 }
 
 /// A corner of a patch with its ring of edges, counter-clockwise.
 ///
 /// Edge i leaves the corner at the angle `i * step` of the tangent plane, with `step` = 2 pi / n around an interior
-/// vertex and pi / k in the k faces of a boundary vertex.
+/// vertex, pi / k in the k faces of a boundary vertex and pi / 2 in a corner that stays where it is.
 pub(super) struct Corner {
     net_size: usize,
     /// The corner, then edge and face neighbours alternating: E0, F0, E1, ..
@@ -33,6 +56,8 @@ pub(super) struct Corner {
     faces: i64,
     /// Whether the ring ends at a boundary.
     open: bool,
+    /// `step` as a part of a full turn: 2 pi over this.
+    steps_in_turn: i64,
     /// The ring edge that is the patch's side towards the next corner.
     plus: i64,
 }
@@ -49,8 +74,25 @@ impl Corner {
 
     /// Corner 0 of an irregular net: the ring is the net's first points.
     fn at_vertex(kind: NetKind, mask: Matrix, faces: u32, open: bool) -> Self {
-        let ring = (0..mask.cols()).map(Point::at).collect();
-        Self { net_size: kind.net_size(), ring, mask, faces: i64::from(faces), open, plus: kind.quad() }
+        let net_size = kind.net_size();
+        let faces = i64::from(faces);
+        let steps_in_turn = if open { 2 * faces } else { faces };
+        Self { net_size, ring: whole(&mask), mask, faces, open, steps_in_turn, plus: kind.quad() }
+    }
+
+    /// A vertex alone: its net is its ring.
+    pub(super) fn of_fan(fan: Fan) -> Self {
+        let mask = match fan {
+            Fan::Interior { valence } => masks::interior(valence),
+            Fan::Crease { faces } => masks::crease(faces),
+            Fan::Corner => masks::corner(),
+        };
+        let (faces, open, steps_in_turn) = match fan {
+            Fan::Interior { valence } => (valence.into(), false, valence.into()),
+            Fan::Crease { faces } => (faces.into(), true, 2 * i64::from(faces)),
+            Fan::Corner => (1, true, 4),
+        };
+        Self { net_size: mask.cols(), ring: whole(&mask), mask, faces, open, steps_in_turn, plus: 0 }
     }
 
     /// A corner of valence 4 on the grid, starting with the edge to the next corner.
@@ -63,7 +105,8 @@ impl Corner {
             ring.push(kind.grid(x + dx - dy, y + dy + dx));
             (dx, dy) = (-dy, dx);
         }
-        Self { net_size: kind.net_size(), ring, mask: masks::interior(4), faces: 4, open: false, plus: 0 }
+        let mask = masks::interior(4);
+        Self { net_size: kind.net_size(), ring, mask, faces: 4, open: false, steps_in_turn: 4, plus: 0 }
     }
 
     /// The ring edge towards the next corner of the patch.
@@ -82,9 +125,9 @@ impl Corner {
         if self.is_single_face() { 0.0 } else { self.direction(1).0 }
     }
 
-    /// Whether the corner belongs to one face only, which then spans a straight angle in the tangent plane.
+    /// Whether the corner belongs to one face only, which spans a straight angle in the tangent plane.
     pub(super) fn is_single_face(&self) -> bool {
-        self.open && self.faces == 1
+        self.open && self.steps_in_turn == 2
     }
 
     /// Whether neighbouring edges leave in opposite directions: cross derivatives vanish here.
@@ -94,7 +137,16 @@ impl Corner {
 
     /// `(cos, sin)` of the angle of edge i.
     fn direction(&self, i: i64) -> (f64, f64) {
-        turn(i, if self.open { 2 * self.faces } else { self.faces })
+        turn(i, self.steps_in_turn)
+    }
+
+    /// What an edge has to do about its cross derivative here.
+    pub(super) fn cross_end_kind(&self) -> CrossEnd {
+        match (self.is_single_face(), self.is_flat()) {
+            (true, _) => CrossEnd::Opposed,
+            (false, true) => CrossEnd::Vanishing,
+            (false, false) => CrossEnd::Plain,
+        }
     }
 
     /// The limit position.
@@ -161,4 +213,9 @@ impl Corner {
         }
         out
     }
+}
+
+/// The points of a ring that is the beginning of its net.
+fn whole(mask: &Matrix) -> Vec<Point> {
+    (0..mask.cols()).map(Point::at).collect()
 }

@@ -1,5 +1,9 @@
 //! Gregory patches as linear maps of a net: control points, shared edges, corner limits.
 //!
+//! Two schemes share the rules: [`gregory2`] is one matrix per patch, for quads with one irregular corner; a cage that is
+//! not refined at all is made from one matrix per vertex, [`Fan`], from which [`edge_record`], [`quad_points`] and
+//! [`triangle_points`] take what they need.
+//!
 //! Loop, Schaefer, Ni and Castano, *Approximating Subdivision Surfaces with Gregory Patches for Hardware Tessellation*
 //! (2009), section 3. Symbols kept: p (corner), e (edge point), f (face point), r (cross derivative), `+` towards the
 //! next corner, `-` towards the previous one.
@@ -7,9 +11,15 @@
 mod edge;
 mod evaluate;
 mod fan;
+mod triangle;
+mod vertex_fan;
+mod whole;
 
-pub use edge::edge;
+pub use edge::{CrossEnd, edge};
 pub use evaluate::{bezier_grid, evaluate};
+pub use triangle::{evaluate_triangle, evaluate_triangle_frozen};
+pub use vertex_fan::{Fan, FanEdge};
+pub use whole::{Side, WholeCorner, edge_record, quad_points, triangle_points};
 
 use crate::matrix::Matrix;
 use crate::net::NetKind;

@@ -299,7 +299,7 @@ pub(crate) fn quads(kind: NetKind) -> Vec<(i64, NetKind)> {
 }
 
 /// A small linear congruential generator (Knuth's MMIX constants): reproducible without a dependency.
-pub(crate) struct Random(u64);
+pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
     /// The next number in 0..1.
