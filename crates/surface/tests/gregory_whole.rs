@@ -44,7 +44,7 @@ fn strip(triangles: u32) -> Polygons {
     let mut random = Random(5);
     let at = |i: u32| DVec3::new(f64::from(i), f64::from(i % 2) * 1.6, 0.4 * random.next());
     let points = (0..triangles + 2).map(at).collect();
-    let face = |i: u32| if i % 2 == 0 { vec![i, i + 2, i + 1] } else { vec![i, i + 1, i + 2] };
+    let face = |i: u32| if i.is_multiple_of(2) { vec![i, i + 2, i + 1] } else { vec![i, i + 1, i + 2] };
     Polygons::new(points, (0..triangles).map(face).collect())
 }
 
