@@ -62,4 +62,7 @@ Examples:
   osculate check assets/cages/torus.obj --levels 1,5,8
   osculate export assets/cages/torus.obj --level 16 -o torus.glb
 
+Drivers' pipelines are kept in the user's cache folder, so that the next run starts faster; OSCULATE_CACHE names another
+folder, or off.
+
 Exit codes: 0 done, 1 a check or comparison failed, 2 usage, 3 bad input file, 4 no usable device.";

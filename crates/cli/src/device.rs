@@ -1,9 +1,15 @@
 //! The device that a command runs on.
 
 use crate::args::GlobalArgs;
+use crate::cache;
 use crate::failure::{Failure, Verdict};
+use crate::progress::Progress;
 use crate::stdout;
-use osculate::{Device, DeviceDesc, DeviceError, DeviceInfo, Engine, EngineError, GpuError, PlanError, devices};
+use osculate::{
+    Device, DeviceDesc, DeviceError, DeviceInfo, Engine, EngineDesc, EngineError, GpuError, PipelineObserver,
+    PipelineProgress, PlanError, devices,
+};
+use std::sync::{Mutex, PoisonError};
 
 /// Opens the device that was asked for, hands it to `work`, and fails if validation had anything to say.
 pub(crate) fn with_engine<T>(
@@ -12,10 +18,14 @@ pub(crate) fn with_engine<T>(
 ) -> Result<T, Failure> {
     let desc =
         DeviceDesc { select: global.device.clone(), validation: global.validation, application: "osculate".to_owned() };
-    let engine = Engine::new(Device::new(&desc)?);
-    let info = engine.device().info();
+    let device = Device::new(&desc)?;
+    let info = device.info();
     tracing::info!("device {}: {}, {} {}", info.index, info.name, info.driver_name, info.driver_info);
+    let observer = Some(show_pipelines(global.quiet));
+    let engine =
+        Engine::with(device, EngineDesc { pipeline_cache: cache::folder(), observer, ..EngineDesc::default() });
     let result = work(&engine);
+    engine.save_pipelines();
     for message in engine.device().validation_messages() {
         tracing::error!("{message}");
     }
@@ -25,6 +35,21 @@ pub(crate) fn with_engine<T>(
         return Err(Failure::device(format_args!("validation had {count} messages; they stand above")));
     }
     Ok(done)
+}
+
+/// A bar for drivers that take long to make pipelines.
+fn show_pipelines(quiet: bool) -> PipelineObserver {
+    let shown = Mutex::new(None);
+    PipelineObserver::new(move |PipelineProgress { done, total }| {
+        let mut shown = shown.lock().unwrap_or_else(PoisonError::into_inner);
+        match done {
+            0 => *shown = Some(Progress::new(quiet, total as u64, "making pipelines")),
+            _ => shown.iter().for_each(|progress| progress.advance(1)),
+        }
+        if done == total {
+            *shown = None;
+        }
+    })
 }
 
 /// Prints a line per device.

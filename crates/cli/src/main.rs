@@ -1,6 +1,7 @@
 //! The `osculate` command.
 
 mod args;
+mod cache;
 mod commands;
 mod device;
 mod failure;

@@ -1,12 +1,16 @@
 //! A bar on stderr for what takes more than a second.
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::{MultiProgress, ProgressBar, ProgressDrawTarget, ProgressStyle};
+use std::sync::LazyLock;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::thread::JoinHandle;
 use std::time::Duration;
 
 /// Work shorter than this shows no bar.
 const PATIENCE: Duration = Duration::from_secs(1);
+
+/// The bars in sight, one line each, where several are at the same time. Draws nothing where stderr is not a terminal.
+static BARS: LazyLock<MultiProgress> = LazyLock::new(MultiProgress::new);
 
 /// A bar that appears once the work has taken a second; never where stderr is not a terminal or the user wants quiet.
 pub(crate) struct Progress {
@@ -41,8 +45,7 @@ impl Progress {
             let bar = bar.clone();
             let show = move || {
                 if end.recv_timeout(PATIENCE) == Err(RecvTimeoutError::Timeout) {
-                    // Draws nothing where stderr is not a terminal.
-                    bar.set_draw_target(ProgressDrawTarget::stderr());
+                    let bar = BARS.add(bar);
                     bar.enable_steady_tick(Duration::from_millis(100));
                 }
             };

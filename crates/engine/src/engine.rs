@@ -1,13 +1,12 @@
 //! A device with the pipelines made on it so far.
 
-use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::path::PathBuf;
+use std::sync::Arc;
 
-use osculate_gpu::{ComputePipeline, ComputePipelineDesc, Device, GraphicsPipeline, Shader};
+use osculate_gpu::Device;
 use osculate_shaders::ShaderSet;
 
-use crate::EngineError;
-use crate::draw::PipelineKey;
+use crate::pipelines::{PipelineObserver, Pipelines};
 
 /// A device, the shaders, and the pipelines made so far: each is made when a cage first needs it. Clones share them.
 #[derive(Clone)]
@@ -22,28 +21,26 @@ pub struct EngineDesc {
     pub shaders: ShaderSet,
     /// Most patches of one draw; `None` takes what the driver is known to draw right.
     pub patches_per_draw: Option<u32>,
+    /// Folder in which the driver's memory of pipelines is kept from run to run, a file per device. What is damaged or was
+    /// written by another driver is ignored, and several processes may use it at once; nothing that goes wrong with it is an
+    /// error. `None` keeps nothing.
+    ///
+    /// Mesa's software driver has nothing to keep there; what it compiles is in a cache of its own (`MESA_SHADER_CACHE_DIR`).
+    pub pipeline_cache: Option<PathBuf>,
+    /// Who is told while pipelines are made.
+    pub observer: Option<PipelineObserver>,
 }
 
 struct Inner {
     device: Device,
     desc: EngineDesc,
-    modules: Mutex<HashMap<String, Shader>>,
-    kernels: Mutex<HashMap<&'static str, ComputePipeline>>,
-    pipelines: Mutex<HashMap<PipelineKey, GraphicsPipeline>>,
+    pipelines: Pipelines,
 }
 
-/// The value of `key`, made and kept if it is not there yet.
-fn get_or_make<K: std::hash::Hash + Eq, V: Clone>(
-    map: &Mutex<HashMap<K, V>>,
-    key: K,
-    make: impl FnOnce() -> Result<V, EngineError>,
-) -> Result<V, EngineError> {
-    if let Some(value) = map.lock().unwrap_or_else(PoisonError::into_inner).get(&key) {
-        return Ok(value.clone());
+impl Drop for Inner {
+    fn drop(&mut self) {
+        self.pipelines.save(&self.device);
     }
-    let value = make()?;
-    map.lock().unwrap_or_else(PoisonError::into_inner).insert(key, value.clone());
-    Ok(value)
 }
 
 impl Engine {
@@ -52,16 +49,23 @@ impl Engine {
         Self::with(device, EngineDesc::default())
     }
 
-    /// An engine with other shaders or limits.
+    /// An engine with other shaders or limits, or with a cache of pipelines.
     pub fn with(device: Device, desc: EngineDesc) -> Self {
-        let inner =
-            Inner { device, desc, modules: Mutex::default(), kernels: Mutex::default(), pipelines: Mutex::default() };
-        Self { inner: Arc::new(inner) }
+        let pipelines = Pipelines::new(&device, desc.pipeline_cache.clone());
+        Self { inner: Arc::new(Inner { device, desc, pipelines }) }
     }
 
     /// The device.
     pub fn device(&self) -> &Device {
         &self.inner.device
+    }
+
+    pub(crate) fn desc(&self) -> &EngineDesc {
+        &self.inner.desc
+    }
+
+    pub(crate) fn pipelines(&self) -> &Pipelines {
+        &self.inner.pipelines
     }
 
     /// Most patches of one draw with so many segments along an edge.
@@ -72,29 +76,6 @@ impl Engine {
         // Nets have at most 32 points, and a draw at most 2^32 vertices.
         let any = u32::MAX / 32;
         let known = if self.device().info().is_llvmpipe { 65_535 / ((segments + 2) * (segments + 2)) } else { any };
-        self.inner.desc.patches_per_draw.unwrap_or(known).clamp(1, any)
-    }
-
-    /// The shader module of that name.
-    pub(crate) fn shader(&self, name: &str) -> Result<Shader, EngineError> {
-        get_or_make(&self.inner.modules, name.to_owned(), || {
-            let missing = || EngineError::MissingShader { name: name.to_owned() };
-            let words = self.inner.desc.shaders.get(name).ok_or_else(missing)?;
-            Ok(self.inner.device.shader(name, words)?)
-        })
-    }
-
-    /// The compute pipeline of that shader.
-    pub(crate) fn kernel(&self, name: &'static str) -> Result<ComputePipeline, EngineError> {
-        get_or_make(&self.inner.kernels, name, || {
-            let shader = self.shader(name)?;
-            let desc = ComputePipelineDesc { name, shader: &shader, specialization: &[] };
-            Ok(self.inner.device.compute_pipeline(&desc)?)
-        })
-    }
-
-    /// The graphics pipeline of that key.
-    pub(crate) fn pipeline(&self, key: PipelineKey) -> Result<GraphicsPipeline, EngineError> {
-        get_or_make(&self.inner.pipelines, key, || key.make(self))
+        self.desc().patches_per_draw.unwrap_or(known).clamp(1, any)
     }
 }

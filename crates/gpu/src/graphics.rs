@@ -128,6 +128,15 @@ impl GraphicsPipeline {
     }
 }
 
+impl PartialEq for GraphicsPipeline {
+    /// Whether both are the same pipeline.
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.inner, &other.inner)
+    }
+}
+
+impl Eq for GraphicsPipeline {}
+
 impl std::fmt::Debug for GraphicsPipeline {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("GraphicsPipeline").field(&self.name()).finish()

@@ -60,6 +60,15 @@ impl ComputePipeline {
     }
 }
 
+impl PartialEq for ComputePipeline {
+    /// Whether both are the same pipeline.
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.inner, &other.inner)
+    }
+}
+
+impl Eq for ComputePipeline {}
+
 impl std::fmt::Debug for ComputePipeline {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.debug_tuple("ComputePipeline").field(&self.name()).finish()

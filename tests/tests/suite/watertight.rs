@@ -107,7 +107,7 @@ fn patches_numbered_by_the_device_are_noticed() {
         from: "uint id = net_patch[0];",
         to: "uint id = list.first_patch + uint(gl_PrimitiveID);",
     };
-    let gpu = gpu_with(EngineDesc { shaders: mutated(&[mutation]), patches_per_draw: Some(5_000) });
+    let gpu = gpu_with(EngineDesc { shaders: mutated(&[mutation]), patches_per_draw: Some(5_000), ..EngineDesc::default() });
     let drawn = surface(&gpu, &zoo::grid(100, 100), None).unwrap();
     let report = check(&drawn, &level(1.0, Spacing::Equal)).unwrap();
     assert!(report.wrong_patches > 0, "{report:?}");

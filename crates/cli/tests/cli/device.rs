@@ -2,6 +2,7 @@
 
 use crate::support::{CAGE, command, osculate};
 use std::fs;
+use std::path::{Path, PathBuf};
 use tempfile::tempdir;
 
 #[test]
@@ -57,4 +58,45 @@ fn the_reference_needs_no_device() {
         .status()
         .unwrap();
     assert_eq!(status.code(), Some(0));
+}
+
+/// The file in a folder of kept pipelines.
+fn kept_in(folder: &Path) -> PathBuf {
+    let files: Vec<PathBuf> = fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path()).collect();
+    assert_eq!(files.len(), 1, "{files:?}");
+    files[0].clone()
+}
+
+#[test]
+fn pipelines_are_kept_where_the_environment_says() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("cage.obj"), CAGE).unwrap();
+    let cache = folder.path().join("kept/here");
+    let sample = || {
+        let output =
+            command(folder.path(), &["sample", "cage.obj", "-v", "-v"]).env("OSCULATE_CACHE", &cache).output().unwrap();
+        assert_eq!(output.status.code(), Some(0), "{output:?}");
+        String::from_utf8(output.stderr).unwrap()
+    };
+    sample();
+    let file = kept_in(&cache);
+    let whole = fs::read(&file).unwrap();
+    assert!(sample().contains(&format!("{}: used", file.display())));
+    for damaged in [&whole[..whole.len() / 2], b"no cache at all"] {
+        fs::write(&file, damaged).unwrap();
+        let stderr = sample();
+        assert!(stderr.contains("nothing to be used") && !stderr.contains("warning"), "{stderr}");
+        assert_eq!(fs::read(&file).unwrap().len(), whole.len());
+    }
+}
+
+#[test]
+fn a_cache_that_cannot_be_used_is_not_mentioned() {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("cage.obj"), CAGE).unwrap();
+    for cache in ["cage.obj", "cage.obj/inside", "", "off"] {
+        let output = command(folder.path(), &["sample", "cage.obj"]).env("OSCULATE_CACHE", cache).output().unwrap();
+        assert_eq!((output.status.code(), output.stderr.as_slice()), (Some(0), &b""[..]), "{cache:?}");
+    }
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1, "nothing is kept");
 }

@@ -35,6 +35,7 @@ pub(crate) fn command(folder: &Path, arguments: &[&str]) -> Command {
         .args(validated.then_some("--validation"))
         .current_dir(folder)
         .env_remove("OSCULATE_DEVICE")
+        .env("OSCULATE_CACHE", "off")
         .stdin(Stdio::null());
     command
 }
