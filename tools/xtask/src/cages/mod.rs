@@ -65,6 +65,7 @@ fn assets() -> Vec<Asset> {
         assets.push(Asset::new(format!("star{valence}"), exercises, star::star(valence)));
     }
     assets.extend([
+        Asset::new("stars", "the stars of valence 3 to 12 side by side: all pipelines of a scheme", star::stars()),
         Asset::new(
             "uvsphere",
             "two poles of valence 64 in fans of triangles; uv with a seam",
@@ -187,6 +188,17 @@ mod tests {
             assert_eq!(survey.interior_valences.into_iter().collect::<Vec<_>>(), expected, "star{valence}");
             assert!(survey.boundary_faces.keys().all(|faces| *faces <= 2), "star{valence}");
         }
+    }
+
+    #[test]
+    fn stars_side_by_side_have_every_valence_and_stay_apart() {
+        let survey = survey("stars");
+        let expected = star::SIDE_BY_SIDE.map(|valence| match valence {
+            4 => (4, star::SIDE_BY_SIDE.map(|valence| 2 * valence).sum::<usize>() + 1),
+            _ => (valence, 1),
+        });
+        assert_eq!(survey.interior_valences.into_iter().collect::<Vec<_>>(), expected.collect::<Vec<_>>());
+        assert_eq!(survey.characteristic, star::SIDE_BY_SIDE.count() as isize, "as many disks as stars");
     }
 
     #[test]

@@ -25,6 +25,24 @@ pub(super) fn star(valence: usize) -> Mesh {
     Mesh::new(welder.points, faces)
 }
 
+/// The valences that stand side by side in [`stars`]: those with a pipeline of their own, and the regular one.
+pub(super) const SIDE_BY_SIDE: std::ops::RangeInclusive<usize> = 3..=12;
+
+/// Two rows of stars, one of each valence.
+pub(super) fn stars() -> Mesh {
+    let mut all = Mesh::default();
+    let columns = SIDE_BY_SIDE.count() / 2;
+    for (number, valence) in SIDE_BY_SIDE.enumerate() {
+        let (row, column) = (number / columns, number % columns);
+        // No star reaches farther than 1.4 from its centre.
+        let centre = 3.0 * dvec3(column as f64, 0.0, row as f64);
+        let (star, first) = (star(valence), all.points.len());
+        all.points.extend(star.points.iter().map(|&p| p + centre));
+        all.faces.extend(star.faces.iter().map(|face| face.iter().map(|vertex| first + vertex).collect::<Vec<_>>()));
+    }
+    all
+}
+
 /// Every (i, j) below `side`.
 pub(super) fn squares(side: usize) -> impl Iterator<Item = (usize, usize)> {
     (0..side).flat_map(move |i| (0..side).map(move |j| (i, j)))
