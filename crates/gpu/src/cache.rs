@@ -5,8 +5,11 @@
 //! | bytes | content |
 //! |---|---|
 //! | 0..8 | `OSCPIPE1` |
-//! | 8..16 | FNV-1a hash of the rest, 64 bits, little endian |
+//! | 8..16 | FNV-1a hash of the driver's version and the rest, 64 bits, little endian |
 //! | 16.. | what Vulkan gave |
+//!
+//! The version is hashed because the UUID in Vulkan's header, which should change with it, does not on every driver: that of Mesa
+//! 22.3's lavapipe is `val-%s`.
 
 use std::{
     fs,
@@ -65,7 +68,7 @@ impl Device {
         if found.as_ref() == Some(&data) || data.len() as u64 > MAX_BYTES {
             return Ok(false);
         }
-        replace(path, &pack(&data)).map_err(|source| failure(path, source))?;
+        replace(path, &pack(&data, &self.info().driver_info)).map_err(|source| failure(path, source))?;
         Ok(true)
     }
 
@@ -76,7 +79,8 @@ impl Device {
             Err(error) if error.kind() == io::ErrorKind::NotFound => None,
             Err(source) => return Err(failure(path, source)),
         };
-        let data = file.as_deref().and_then(unpack).filter(|data| identity(data) == Some(self.shared.cache_identity));
+        let data = file.as_deref().and_then(|file| unpack(file, &self.info().driver_info));
+        let data = data.filter(|data| identity(data) == Some(self.shared.cache_identity));
         Ok(data.map(<[u8]>::to_vec))
     }
 
@@ -122,18 +126,19 @@ fn replace(path: &Path, bytes: &[u8]) -> io::Result<()> {
     Ok(())
 }
 
-fn pack(data: &[u8]) -> Vec<u8> {
-    [MAGIC, hash(data).to_le_bytes().as_slice(), data].concat()
+fn pack(data: &[u8], version: &str) -> Vec<u8> {
+    [MAGIC, hash(data, version).to_le_bytes().as_slice(), data].concat()
 }
 
-fn unpack(file: &[u8]) -> Option<&[u8]> {
+fn unpack<'f>(file: &'f [u8], version: &str) -> Option<&'f [u8]> {
     let (sum, data) = file.strip_prefix(MAGIC)?.split_first_chunk::<8>()?;
-    (hash(data) == u64::from_le_bytes(*sum)).then_some(data)
+    (hash(data, version) == u64::from_le_bytes(*sum)).then_some(data)
 }
 
 /// FNV-1a with the published 64-bit offset basis and prime.
-fn hash(data: &[u8]) -> u64 {
-    data.iter().fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(*byte)).wrapping_mul(0x0100_0000_01b3))
+fn hash(data: &[u8], version: &str) -> u64 {
+    let bytes = version.bytes().chain(data.iter().copied());
+    bytes.fold(0xcbf2_9ce4_8422_2325, |hash, byte| (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3))
 }
 
 /// Whose data it is, by `VkPipelineCacheHeaderVersionOne`: length of the header, version, vendor, device, UUID.
@@ -156,18 +161,19 @@ mod tests {
 
     #[test]
     fn what_is_packed_is_unpacked() {
-        assert_eq!(unpack(&pack(&header())), Some(header().as_slice()));
-        assert_eq!(unpack(&pack(&[])), Some([].as_slice()));
+        assert_eq!(unpack(&pack(&header(), "1"), "1"), Some(header().as_slice()));
+        assert_eq!(unpack(&pack(&[], "1"), "1"), Some([].as_slice()));
+        assert_eq!(unpack(&pack(&header(), "1"), "2"), None, "another version of the driver");
     }
 
     #[test]
     fn damage_is_noticed() {
-        let whole = pack(&header());
+        let whole = pack(&header(), "1");
         for position in 0..whole.len() {
             let mut damaged = whole.clone();
             damaged[position] ^= 1;
-            assert_eq!(unpack(&damaged), None, "byte {position}");
-            assert_eq!(unpack(&whole[..position]), None, "length {position}");
+            assert_eq!(unpack(&damaged, "1"), None, "byte {position}");
+            assert_eq!(unpack(&whole[..position], "1"), None, "length {position}");
         }
     }
 
@@ -187,16 +193,18 @@ mod tests {
     fn files_of_other_devices_and_drivers_are_ignored_and_replaced() {
         let select = std::env::var("OSCULATE_DEVICE").ok();
         let device = Device::new(&DeviceDesc { select, validation: true, ..DeviceDesc::default() }).unwrap();
-        let folder = tempfile::tempdir().unwrap();
+        let (folder, version) = (tempfile::tempdir().unwrap(), &device.info().driver_info);
         let path = folder.path().join(device.pipeline_cache_name());
         assert!(device.save_pipeline_cache(&path).unwrap());
-        let own = unpack(&fs::read(&path).unwrap()).unwrap().to_vec();
+        let own = unpack(&fs::read(&path).unwrap(), version).unwrap().to_vec();
         for (byte, what) in [(8, "vendor"), (12, "device"), (16, "driver")] {
             let mut foreign = own.clone();
             foreign[byte] ^= 1;
-            fs::write(&path, pack(&foreign)).unwrap();
+            fs::write(&path, pack(&foreign, version)).unwrap();
             assert!(!device.load_pipeline_cache(&path).unwrap(), "another {what}");
         }
+        fs::write(&path, pack(&own, "another version")).unwrap();
+        assert!(!device.load_pipeline_cache(&path).unwrap(), "another version");
         assert!(device.save_pipeline_cache(&path).unwrap(), "what it cannot use is replaced");
         assert!(device.load_pipeline_cache(&path).unwrap());
         assert_eq!(device.validation_messages(), [""; 0]);
