@@ -36,6 +36,20 @@ const EVALUATION_VARIANTS: &[(&str, Defines)] = &[
 ];
 const ONE_VARIANT: &[(&str, Defines)] = &[("", &[])];
 
+/// Control stages that write as many vertices as the net has points, which SPIR-V wants as a literal: one variant for each net of 2n+8 points.
+const NET_SIZE_STAGE: &str = "patch/stam.tesc";
+const NET_SIZE_VARIANTS: &[(&str, Defines)] = &[
+    ("#14", &[("POINTS_OUT", Some("14"))]),
+    ("#18", &[("POINTS_OUT", Some("18"))]),
+    ("#20", &[("POINTS_OUT", Some("20"))]),
+    ("#22", &[("POINTS_OUT", Some("22"))]),
+    ("#24", &[("POINTS_OUT", Some("24"))]),
+    ("#26", &[("POINTS_OUT", Some("26"))]),
+    ("#28", &[("POINTS_OUT", Some("28"))]),
+    ("#30", &[("POINTS_OUT", Some("30"))]),
+    ("#32", &[("POINTS_OUT", Some("32"))]),
+];
+
 /// One shader to compile: a variant of a stage file.
 struct Job {
     /// Path of the file plus the variant's suffix: `patch/regular.tese#equal`.
@@ -79,6 +93,7 @@ fn run() -> Result<(), Vec<String>> {
 fn jobs_of(path: &str) -> Vec<Job> {
     let variants = match Stage::of_path(path) {
         Ok(Stage::TessellationEvaluation) => EVALUATION_VARIANTS,
+        Ok(_) if path == NET_SIZE_STAGE => NET_SIZE_VARIANTS,
         Ok(_) => ONE_VARIANT,
         Err(_) => &[],
     };

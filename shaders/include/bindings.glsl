@@ -15,5 +15,6 @@
 #define BINDING_SOURCES 10
 #define BINDING_REQUESTS 11
 #define BINDING_SAMPLES 12
+#define BINDING_SPOKES 13
 
 #endif

@@ -1,16 +1,12 @@
-// The coefficient buffer: 20 Gregory points per patch that does not go through a patch list of net points.
+// The coefficient buffer: vectors computed before the draw (records/coefficients.comp): control points of stored patches, then spoke records.
 #ifndef COEFFICIENTS_GLSL
 #define COEFFICIENTS_GLSL
 #include "bindings.glsl"
-#include "constants.glsl"
 
 layout(std430, set = 0, binding = BINDING_COEFFICIENTS) readonly buffer Coefficients { float coefficients[]; };
 
-void load_coefficients(uint index, out vec3 g[GREGORY_POINTS]) {
-    for (uint i = 0u; i < GREGORY_POINTS; ++i) {
-        uint at = 3u * (GREGORY_POINTS * index + i);
-        g[i] = vec3(coefficients[at], coefficients[at + 1u], coefficients[at + 2u]);
-    }
+vec3 stored_vector(uint index) {
+    return vec3(coefficients[3u * index], coefficients[3u * index + 1u], coefficients[3u * index + 2u]);
 }
 
 #endif

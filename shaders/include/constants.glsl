@@ -14,12 +14,14 @@
 #define GREGORY_POINTS 20
 #define SAMPLE_FLOATS 12
 
-// PatchRecord.tag: what evaluates the patch (bits 0..1), boundary flag (bit 2), valence of corner 0 (from bit 8).
-#define KIND_REGULAR 0
-#define KIND_EXTRAORDINARY 1
-#define KIND_COEFFICIENTS 2
-#define KIND_MASK 3
-#define TAG_BOUNDARY 4
+// PatchRecord.tag: the formula (bits 0..2), whether control points are stored (bit 3), boundary flag (bit 4), valence of corner 0 (from bit 8).
+#define FORM_BICUBIC 0
+#define FORM_GREGORY 1
+#define FORM_STAM 2
+#define FORM_BISEPTIC 3
+#define FORM_MASK 7
+#define TAG_STORED 8
+#define TAG_BOUNDARY 16
 #define TAG_VALENCE_SHIFT 8
 
 // Frame.factor_mode

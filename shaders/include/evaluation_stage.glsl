@@ -1,8 +1,8 @@
-// Interface of the tessellation evaluation stages. SPACING is the layout's spacing; with CAPTURE the outputs go to transform feedback.
+// Interface of the tessellation evaluation stages: a stage includes this, its form, and says where control points come from. SPACING is the layout's spacing; with CAPTURE the outputs go to transform feedback.
 #ifndef EVALUATION_STAGE_GLSL
 #define EVALUATION_STAGE_GLSL
 #include "frame.glsl"
-#include "records.glsl"
+#include "forms/form.glsl"
 #include "measure.glsl"
 
 // Vulkan looks at the domain with v pointing down, so what it calls clockwise is counter-clockwise in (u,v).
@@ -22,10 +22,10 @@ layout(location = 2) out vec2 out_measure;
 layout(location = 3) out flat uint out_patch;
 #endif
 
-// Writes the vertex at (u,v) of the patch whose bicubic form there is `b`.
-void write_vertex(vec3 b[16]) {
+// Writes the vertex at the tessellation coordinates.
+void write_vertex() {
     vec2 uv = gl_TessCoord.xy;
-    PatchPoint inner = bicubic_point(b, uv);
+    InnerPoint inner = inner_point(patch_id, uv);
     SurfacePoint point = surface_point(patch_id, uv, inner);
     gl_Position = clip_position(point.position);
     out_position = point.position;
@@ -34,7 +34,7 @@ void write_vertex(vec3 b[16]) {
 #ifdef CAPTURE
     out_uv = uv;
 #else
-    out_measure = shade_measure(b, uv, inner, vec2(gl_TessLevelInner[0], gl_TessLevelInner[1]));
+    out_measure = shade_measure(patch_id, uv, inner, vec2(gl_TessLevelInner[0], gl_TessLevelInner[1]));
 #endif
 }
 

@@ -2,7 +2,7 @@
 #ifndef MEASURE_GLSL
 #define MEASURE_GLSL
 #include "frame.glsl"
-#include "curvature.glsl"
+#include "forms/form.glsl"
 
 // A step along `direction` from the point at `clip`, in pixels of the picture.
 vec2 shade_pixels(vec4 clip, vec3 direction) {
@@ -17,9 +17,9 @@ float shade_triangle_width(vec2 du, vec2 dv) {
 }
 
 // Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Patches and valence: (u,v).
-vec2 shade_measure(vec3 b[16], vec2 uv, PatchPoint p, vec2 segments) {
+vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
     if (frame.shade == SHADE_CURVATURE) {
-        return shade_curvature_at(b, uv);
+        return shade_curvature(id, uv);
     }
     if (frame.shade == SHADE_WIREFRAME) {
         vec4 clip = clip_position(p.position);

@@ -30,7 +30,7 @@ vec3 shade_edges_color(uint edges) {
 // By the edges at the patch's corner; paler where that is regular at a boundary.
 vec3 shade_valence_color(uint tag) {
     vec3 color = shade_edges_color(tag >> TAG_VALENCE_SHIFT);
-    bool regular = (tag & KIND_MASK) == KIND_REGULAR;
+    bool regular = (tag & FORM_MASK) == FORM_BICUBIC;
     return regular ? mix(shade_edges_color(4u), color, 0.30) : color;
 }
 
@@ -38,7 +38,7 @@ vec3 shade_valence_color(uint tag) {
 vec3 shade_patch_color(uint tag) {
     uint valence = tag >> TAG_VALENCE_SHIFT;
     bool boundary = (tag & TAG_BOUNDARY) != 0u;
-    if ((tag & KIND_MASK) == KIND_REGULAR) {
+    if ((tag & FORM_MASK) == FORM_BICUBIC) {
         uint corner = valence == 2u ? 0x3f74b5u : 0x8fb8dau;
         return shade_srgb(boundary ? corner : 0xe4e1dau);
     }

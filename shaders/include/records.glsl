@@ -11,13 +11,13 @@
 struct PatchRecord {
     uint vertex[4];
     uint edge[4];
-    // First index of the net in Nets.
+    // First index of the net in Nets; of a stored patch the first of its vectors in Coefficients.
     uint net;
-    // First weight of the change of basis in Weights (extraordinary), or index in Coefficients.
+    // First weight of the change of basis in Weights.
     uint basis;
     // Points of the net.
     uint net_size;
-    // KIND_*, TAG_BOUNDARY, valence.
+    // FORM_*, TAG_*, valence.
     uint tag;
 };
 
@@ -67,31 +67,11 @@ float edge_parameter(uint side, uint flip, float x) {
     return ((side >> 1u) ^ flip) == 1u ? reversed : x;
 }
 
-// The shared point at (u,v), if (u,v) is on an edge or a corner of the patch.
-bool shared_point(uint patch_id, vec2 uv, out SurfacePoint point) {
-    uint side = side_of(uv);
-    if (side == 4u) {
-        return false;
-    }
-    bool corner = (uv.x == 0.0 || uv.x == 1.0) && (uv.y == 0.0 || uv.y == 1.0);
-    if (corner) {
-        uint k = uv.y == 0.0 ? (uv.x == 0.0 ? 0u : 1u) : (uv.x == 0.0 ? 3u : 2u);
-        point = vertex_record_point(patches[patch_id].vertex[k]);
-    } else {
-        uint edge = patches[patch_id].edge[side];
-        float x = (side & 1u) == 0u ? uv.x : uv.y;
-        point = edge_record_at(edge >> 1u, edge_parameter(side, edge & 1u, x));
-    }
-    return true;
-}
-
-// The point at (u,v): shared where it lies on an edge or corner, from the patch's own evaluation elsewhere.
-SurfacePoint surface_point(uint patch_id, vec2 uv, PatchPoint inner) {
-    SurfacePoint point;
-    if (!shared_point(patch_id, uv, point)) {
-        point = SurfacePoint(inner.position, unit_or_zero(cross_product(inner.du, inner.dv)));
-    }
-    return point;
+// The shared point at (u,v) on a side of a patch, corners excepted, from the cubic record of the edge.
+SurfacePoint cubic_side_point(uint id, uint side, vec2 uv) {
+    uint edge = patches[id].edge[side];
+    float x = (side & 1u) == 0u ? uv.x : uv.y;
+    return edge_record_at(edge >> 1u, edge_parameter(side, edge & 1u, x));
 }
 
 #endif

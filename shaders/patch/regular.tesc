@@ -1,15 +1,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Regular patches: uniform bicubic B-spline net to Bezier net by the two 4x4 products of the report, section 4.1; one point per invocation.
+// Regular patches: uniform bicubic B-spline net to Bezier net (report, section 4.1), one point per invocation.
 #define POINTS_OUT 16
+#include "constants.glsl"
 #include "control_stage.glsl"
-#include "regular_basis.glsl"
+#include "bases/bicubic.glsl"
 
 void main() {
-    vec3 net[16];
-    for (int i = 0; i < 16; ++i) {
-        net[i] = net_point[i];
-    }
-    control_point[gl_InvocationID] = regular_bezier_point(net, uint(gl_InvocationID));
+    control_point[gl_InvocationID] = change_basis(uint(gl_InvocationID), list.weights, NET_SIZE);
     write_patch();
 }

@@ -12,7 +12,8 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use osculate::{
-    BoundaryRule, Cage, Device, DeviceDesc, Engine, EngineDesc, EngineError, PlanError, ShaderSet, Surface, SurfaceDesc,
+    BoundaryRule, Cage, Device, DeviceDesc, Engine, EngineDesc, EngineError, PlanError, Scheme, ShaderSet, Surface,
+    SurfaceDesc,
 };
 
 /// The engine that tests share, so that pipelines are compiled once; checks validation when dropped.
@@ -44,7 +45,15 @@ pub fn gpu_with(desc: EngineDesc) -> Gpu {
 /// # Panics
 /// If it cannot be made.
 pub fn surface(engine: &Engine, cage: &Cage, boundary: Option<BoundaryRule>) -> Option<Surface> {
-    match Surface::new(engine, cage, &SurfaceDesc { boundary, ..SurfaceDesc::default() }) {
+    surface_of(engine, cage, Scheme::default(), boundary)
+}
+
+/// The same in any scheme.
+///
+/// # Panics
+/// If it cannot be made.
+pub fn surface_of(engine: &Engine, cage: &Cage, scheme: Scheme, boundary: Option<BoundaryRule>) -> Option<Surface> {
+    match Surface::new(engine, cage, &SurfaceDesc { scheme, boundary }) {
         Ok(surface) => Some(surface),
         Err(EngineError::Plan(PlanError::NothingToDraw { .. })) => None,
         Err(error) => panic!("{error}"),

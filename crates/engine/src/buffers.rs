@@ -24,14 +24,14 @@ pub(crate) struct SurfaceBuffers {
     pub(crate) points: Buffer,
     pub(crate) vertex_records: Buffer,
     pub(crate) edge_records: Buffer,
-    pub(crate) gregory_points: Buffer,
+    pub(crate) coefficients: Buffer,
     pub(crate) levels: Vec<LevelBuffers>,
     pub(crate) phantom: Bindings,
     pub(crate) vertex_regular: Bindings,
     pub(crate) vertex_general: Bindings,
     pub(crate) edge_regular: Bindings,
     pub(crate) edge_general: Bindings,
-    pub(crate) coefficients: Bindings,
+    pub(crate) projections: Bindings,
     /// What the patch stages and the sampling kernel read.
     pub(crate) patches: Bindings,
     /// Edges of the cage, for the overlay.
@@ -79,8 +79,9 @@ impl SurfaceBuffers {
         )?;
         let edge_records =
             up.floats("edge records", (plan.edge_records.count() as u64) * u64::from(constant::EDGE_RECORD_FLOATS))?;
-        let gregory_points =
-            up.floats("coefficients", plan.coefficient_count() as u64 * 3 * u64::from(constant::GREGORY_POINTS))?;
+        let coefficients = up.floats("coefficients", u64::from(plan.vector_count) * 3)?;
+        let spokes: Vec<u32> =
+            std::iter::once(plan.first_general_edge()).chain(cast_slice(&plan.spokes).iter().copied()).collect();
         let common = Bindings::new()
             .with(binding::POINTS, &points)
             .with(binding::NETS, &up.table("nets", &plan.nets)?)
@@ -88,7 +89,8 @@ impl SurfaceBuffers {
             .with(binding::WEIGHTS, &up.table("weights", &plan.weights)?)
             .with(binding::VERTEX_RECORDS, &vertex_records)
             .with(binding::EDGE_RECORDS, &edge_records)
-            .with(binding::COEFFICIENTS, &gregory_points);
+            .with(binding::COEFFICIENTS, &coefficients)
+            .with(binding::SPOKES, &up.table("spoke records", &spokes)?);
         let levels = plan
             .levels
             .iter()
@@ -115,14 +117,14 @@ impl SurfaceBuffers {
             vertex_general: sources("sources of general vertex records", cast_slice(&vertices.general))?,
             edge_regular: sources("sources of regular edge records", &edges.regular)?,
             edge_general: sources("sources of general edge records", cast_slice(&edges.general))?,
-            coefficients: sources("sources of coefficients", cast_slice(&plan.coefficients))?,
+            projections: sources("sources of coefficients", cast_slice(&plan.projections))?,
             phantom: common.clone().with(binding::INDICES, &up.table("phantom points", &plan.reflections)?),
             cage_edges: common.clone().with(binding::INDICES, &up.table("cage edges", cage_edges)?),
             staging: staging(device, plan)?,
             points,
             vertex_records,
             edge_records,
-            gregory_points,
+            coefficients,
             levels,
             patches: common,
             bytes: up.bytes,

@@ -6,7 +6,7 @@ use osculate_gpu::{
     Tessellation as Stages, Topology,
 };
 use osculate_shaders::{constant, layout::PatchPush};
-use osculate_subdiv::{PatchKind, PatchList};
+use osculate_subdiv::{PatchForm, PatchKind, PatchList};
 
 use crate::{Engine, EngineError, Spacing, Surface, Tessellation};
 
@@ -39,22 +39,23 @@ pub(crate) enum PipelineKey {
     Cage { target: Target, hidden: bool },
 }
 
-/// Stem of the stages of a patch kind.
-fn stem(kind: PatchKind) -> &'static str {
-    match kind {
-        PatchKind::Regular => "regular",
-        PatchKind::Extraordinary { .. } => "gregory2",
-        PatchKind::Coefficients => "coefficients",
+/// Shaders of a patch kind: vertex, control and evaluation stage, without the variant of the last.
+fn stages(kind: PatchKind) -> [String; 3] {
+    let form = kind.form();
+    let name = form.name();
+    if kind.is_stored() {
+        return ["patch/stored.vert".to_owned(), "patch/stored.tesc".to_owned(), format!("patch/stored_{name}.tese")];
     }
+    let control = match form {
+        PatchForm::Stam => format!("patch/stam.tesc#{}", patch_points(kind)),
+        _ => format!("patch/{name}.tesc"),
+    };
+    ["patch/patch.vert".to_owned(), control, format!("patch/{name}.tese")]
 }
 
 /// Points per patch that the vertex stage hands over.
 fn patch_points(kind: PatchKind) -> u32 {
-    match kind {
-        PatchKind::Regular => 16,
-        PatchKind::Extraordinary { valence } => 2 * valence + 8,
-        PatchKind::Coefficients => 1,
-    }
+    kind.net_size().unwrap_or(1)
 }
 
 impl PipelineKey {
@@ -72,21 +73,17 @@ fn make_patches(
     spacing: Spacing,
     output: Output,
 ) -> Result<GraphicsPipeline, EngineError> {
-    let stem = stem(kind);
     let capture = if output == Output::Capture { ",capture" } else { "" };
-    let vertex = if kind == PatchKind::Coefficients { "patch/coefficients.vert" } else { "patch/patch.vert" };
-    let vertex = engine.shader(vertex)?;
-    let control = engine.shader(&format!("patch/{stem}.tesc"))?;
-    let evaluation = engine.shader(&format!("patch/{stem}.tese#{}{capture}", spacing.variant()))?;
+    let [vertex, control, evaluation] = stages(kind);
+    let vertex = engine.shader(&vertex)?;
+    let control = engine.shader(&control)?;
+    let evaluation = engine.shader(&format!("{evaluation}#{}{capture}", spacing.variant()))?;
     let fragment = match output {
         Output::Fill(_) => Some(engine.shader("shade/surface.frag")?),
         Output::Lines(_) => Some(engine.shader("shade/wire.frag")?),
         Output::Capture => None,
     };
-    let name = match kind {
-        PatchKind::Extraordinary { valence } => format!("{stem}, valence {valence}, {output:?}"),
-        _ => format!("{stem}, {output:?}"),
-    };
+    let name = format!("{kind:?}, {output:?}");
     let specialization = [(constant::SPEC_NET_SIZE, patch_points(kind))];
     let desc = GraphicsPipelineDesc {
         tessellation: Some(Stages { control: &control, evaluation: &evaluation, patch_points: patch_points(kind) }),

@@ -30,7 +30,6 @@ mod memo;
 mod pipelines;
 mod render;
 mod sample;
-mod scheme;
 mod space;
 mod surface;
 mod tessellation;
@@ -44,11 +43,12 @@ pub use keys::VertexKey;
 pub use osculate_cage::{BoundaryRule, Cage};
 pub use osculate_gpu::{Device, DeviceDesc, DeviceError, DeviceInfo, GpuError, devices};
 pub use osculate_shaders::ShaderSet;
-pub use osculate_subdiv::{PatchKind, PatchLocation, PlanError, SubFace, SurfacePlan};
+pub use osculate_subdiv::{
+    PatchForm, PatchKind, PatchLocation, PlanError, Scheme, SubFace, SurfacePlan, UnknownScheme,
+};
 pub use pipelines::{PipelineObserver, PipelineProgress};
 pub use render::{Picture, RenderDesc, Shade, render};
 pub use sample::{Sample, SurfacePoint};
-pub use scheme::{Scheme, UnknownScheme};
 pub use space::CageSpace;
 pub use surface::{Surface, SurfaceDesc};
 pub use tessellation::{Factors, Spacing, Tessellation};

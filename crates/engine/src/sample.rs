@@ -1,11 +1,13 @@
 //! Points of the surface on request, evaluated on the device by the includes of the evaluation stages.
 
+use std::collections::BTreeSet;
+
 use glam::{DVec3, Vec3};
 use osculate_gpu::{BufferDesc, BufferUsage, Memory, Recording};
 use osculate_shaders::binding;
 use osculate_shaders::constant::SAMPLE_FLOATS;
 use osculate_shaders::layout::{KernelPush, SampleRequest};
-use osculate_subdiv::{NONE, SubFace};
+use osculate_subdiv::{NONE, PatchForm, SubFace};
 
 use crate::kernels::Kernel;
 use crate::{EngineError, Surface};
@@ -39,6 +41,19 @@ pub struct Sample {
 /// Requests sent at once.
 const CHUNK: usize = 1 << 20;
 
+/// Floats of a sample.
+const SAMPLE: usize = SAMPLE_FLOATS as usize;
+
+/// The sampling kernel of a form.
+fn kernel(form: PatchForm) -> &'static str {
+    match form {
+        PatchForm::Bicubic => "sample/bicubic.comp",
+        PatchForm::Gregory => "sample/gregory.comp",
+        PatchForm::Stam => "sample/stam.comp",
+        PatchForm::Biseptic => "sample/biseptic.comp",
+    }
+}
+
 impl Surface {
     /// Evaluates points.
     ///
@@ -49,9 +64,7 @@ impl Surface {
         let mut samples = Vec::with_capacity(points.len());
         for chunk in found.chunks(CHUNK) {
             let values = self.evaluate(chunk)?;
-            samples.extend(
-                chunk.iter().zip(values.chunks_exact(SAMPLE_FLOATS as usize)).map(|(at, v)| self.finish(at, v)),
-            );
+            samples.extend(chunk.iter().zip(values.chunks_exact(SAMPLE)).map(|(at, v)| self.finish(at, v)));
         }
         Ok(samples)
     }
@@ -71,16 +84,29 @@ impl Surface {
         }
     }
 
-    /// Raw output of the sampling kernel: position, du, dv, normal of each request, in cage space.
+    /// Raw output of the sampling kernels: position, du, dv, normal of each request, in cage space.
     ///
     /// # Errors
     /// If the device fails.
     pub fn evaluate(&self, requests: &[SampleRequest]) -> Result<Vec<f32>, EngineError> {
-        let device = self.engine().device();
-        if requests.is_empty() {
-            return Ok(Vec::new());
+        let mut values = vec![0.0; requests.len() * SAMPLE];
+        let form = |request: &SampleRequest| self.plan().patches[request.patch_id as usize].kind().form();
+        let forms: BTreeSet<PatchForm> = requests.iter().map(form).collect();
+        for kind in forms {
+            let (at, of_form): (Vec<usize>, Vec<SampleRequest>) =
+                requests.iter().copied().enumerate().filter(|(_, request)| form(request) == kind).unzip();
+            let found = self.evaluate_form(kind, &of_form)?;
+            for (at, sample) in at.into_iter().zip(found.chunks_exact(SAMPLE)) {
+                values[at * SAMPLE..][..SAMPLE].copy_from_slice(sample);
+            }
         }
-        let size = requests.len() as u64 * u64::from(SAMPLE_FLOATS) * 4;
+        Ok(values)
+    }
+
+    /// The same for patches of one form.
+    fn evaluate_form(&self, form: PatchForm, requests: &[SampleRequest]) -> Result<Vec<f32>, EngineError> {
+        let device = self.engine().device();
+        let size = (requests.len() * SAMPLE * 4) as u64;
         let (usage, memory) = (BufferUsage::STORAGE, Memory::Readback);
         let output = device.buffer(&BufferDesc { name: "samples", size, usage, memory })?;
         let bindings = self
@@ -92,7 +118,7 @@ impl Surface {
         let count = requests.len() as u32;
         let mut recording = Recording::new();
         let push = KernelPush { count, first: 0, old_distance: 0 };
-        Kernel { shader: "evaluate/sample.comp", bindings: &bindings, push, threads: count }
+        Kernel { shader: kernel(form), bindings: &bindings, push, threads: count }
             .record(self.engine(), &mut recording)?;
         device.run(&recording)?;
         Ok(output.read(0..size)?)

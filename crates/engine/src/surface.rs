@@ -3,7 +3,7 @@
 use glam::DVec3;
 use osculate_cage::{BoundaryRule, Cage};
 use osculate_gpu::Recording;
-use osculate_shaders::constant::{EDGE_RECORD_POINTS, GREGORY_POINTS};
+use osculate_shaders::constant::EDGE_RECORD_POINTS;
 use osculate_shaders::layout::KernelPush;
 use osculate_subdiv::{PatchLocation, PlanDesc, SurfacePlan};
 
@@ -27,7 +27,6 @@ pub struct Surface {
     space: CageSpace,
     /// Half diagonal of the cage's box in cage space.
     radius: f32,
-    scheme: Scheme,
     buffers: SurfaceBuffers,
     cage_edge_count: u32,
     boundary_edge_count: usize,
@@ -39,7 +38,7 @@ impl Surface {
     /// # Errors
     /// If the cage is too large for 32-bit indices or for the device, no face is left to draw, or the device fails.
     pub fn new(engine: &Engine, cage: &Cage, desc: &SurfaceDesc) -> Result<Self, EngineError> {
-        let plan = SurfacePlan::build(cage, &PlanDesc { boundary: desc.boundary })?;
+        let plan = SurfacePlan::build(cage, &PlanDesc { boundary: desc.boundary, scheme: desc.scheme })?;
         let topology = cage.topology();
         let edges: Vec<[u32; 2]> =
             topology.edge_half_edges().iter().map(|&h| [topology.origin(h), topology.target(h)]).collect();
@@ -50,7 +49,6 @@ impl Surface {
             plan,
             radius: (cage.bounds().half_diagonal() * CageSpace::new(cage.bounds()).scale) as f32,
             space: CageSpace::new(cage.bounds()),
-            scheme: desc.scheme,
             cage_edge_count: edges.len() as u32,
             boundary_edge_count,
         };
@@ -118,7 +116,7 @@ impl Surface {
                 edges.regular.len() as u32,
                 EDGE_RECORD_POINTS,
             ),
-            ("records/coefficients.comp", &buffers.coefficients, plan.coefficients.len() as u32, 0, GREGORY_POINTS),
+            per_element("records/coefficients.comp", &buffers.projections, plan.vector_count as usize, 0),
         ];
         for (shader, bindings, count, first, threads_each) in kernels {
             let push = KernelPush { count, first, old_distance: 0 };
@@ -157,7 +155,7 @@ impl Surface {
 
     /// Its scheme.
     pub fn scheme(&self) -> Scheme {
-        self.scheme
+        self.plan.scheme
     }
 
     /// The coordinates that the device computes in.
@@ -202,12 +200,12 @@ impl Surface {
         Ok(self.engine.device().download(&self.buffers.edge_records, ..)?)
     }
 
-    /// Twenty Gregory points of each patch in the coefficient buffer, in cage space. For tests and tools.
+    /// All vectors in the coefficient buffer, in cage space. For tests and tools.
     ///
     /// # Errors
     /// If the device fails.
     pub fn read_coefficients(&self) -> Result<Vec<[f32; 3]>, EngineError> {
-        Ok(self.engine.device().download(&self.buffers.gregory_points, ..)?)
+        Ok(self.engine.device().download(&self.buffers.coefficients, ..)?)
     }
 
     pub(crate) fn buffers(&self) -> &SurfaceBuffers {

@@ -2,7 +2,7 @@
 //!
 //! A shader's name is its path below the shaders folder (`subdivide/face.comp`). Evaluation stages exist in variants, named by
 //! what follows a `#`: the spacing, and `capture` for those whose outputs go to transform feedback
-//! (`patch/regular.tese#odd,capture`). Sources are embedded too, so that a changed text can be compiled at run time.
+//! (`patch/regular.tese#odd,capture`); the exact patches' control stage by the points of its net (`patch/stam.tesc#18`). Sources are embedded too, so that a changed text can be compiled at run time.
 
 pub mod layout;
 

@@ -5,16 +5,19 @@ use rayon::prelude::*;
 
 use crate::lists::PatchOrder;
 use crate::nets::{FinalMesh, Phantoms};
-use crate::weights::{Role, WeightTable};
-use crate::{Connectivity, MatrixSource, PatchKind, PatchList};
+use crate::projections::Projections;
+use crate::weights::{Role, WeightTable, rows};
+use crate::{Connectivity, PatchForm, PatchKind, PatchList};
 
 /// The patch lists with their nets.
 pub(crate) struct PatchNets {
     pub(crate) lists: Vec<PatchList>,
     /// Nets of all patches, in list order.
     pub(crate) nets: Vec<u32>,
-    /// Nets and changes of basis of coefficient patches.
-    pub(crate) coefficients: Vec<MatrixSource>,
+    /// First index and size of the nets of stored patches.
+    stored: Vec<(u32, u32)>,
+    /// The changes of basis of stored patches, in order.
+    pub(crate) projections: Projections,
     pub(crate) phantoms: Phantoms,
 }
 
@@ -24,18 +27,18 @@ impl PatchNets {
         order: &PatchOrder,
         weights: &mut WeightTable,
     ) -> Self {
-        let (lists, coefficients, size) = lay_out(mesh, order, weights);
+        let Layout { lists, stored, projections, size } = Layout::new(mesh, order, weights);
         let mut nets = vec![0; size as usize];
         let mut phantoms = Phantoms::new(mesh.first_point + mesh.point_count() as u32);
         for list in &lists {
             let (quads, nets) = (&order.quads[list.patches()], &mut nets[list.first_index as usize..]);
             match list.kind {
                 PatchKind::Regular => regular_nets(mesh, quads, nets, &mut phantoms),
-                PatchKind::Extraordinary { valence } => extraordinary_nets(mesh, valence, quads, nets),
-                PatchKind::Coefficients => coefficient_nets(mesh, quads, nets),
+                PatchKind::Extraordinary { valence, .. } => extraordinary_nets(mesh, valence, quads, nets),
+                PatchKind::Stored { .. } => stored_nets(mesh, quads, nets),
             }
         }
-        Self { lists, nets, coefficients, phantoms }
+        Self { lists, nets, stored, projections, phantoms }
     }
 
     /// How many patches are regular; they come first.
@@ -43,56 +46,75 @@ impl PatchNets {
         self.lists.first().filter(|list| list.kind == PatchKind::Regular).map_or(0, |list| list.count)
     }
 
-    /// Net, basis (see [`crate::PatchRecord::basis`]) and net size of the patches of a list, by their number in it.
+    /// The list that a patch belongs to.
+    pub(crate) fn list_of(&self, patch: u32) -> &PatchList {
+        &self.lists[self.lists.partition_point(|list| list.first_patch <= patch) - 1]
+    }
+
+    /// First index and size of the net of a patch, by its number in its list.
+    pub(crate) fn net(&self, list: &PatchList, i: u32) -> (u32, u32) {
+        list.kind.net_size().map_or_else(|| self.stored[i as usize], |size| (list.first_index + size * i, size))
+    }
+
+    /// `net`, `basis` and `net_size` of [`crate::PatchRecord`].
     pub(crate) fn shape(&self, list: &PatchList, i: u32) -> (u32, u32, u32) {
-        match list.kind.net_size() {
-            Some(size) => (list.first_index + size * i, list.weights, size),
-            None => {
-                let MatrixSource { net, columns, .. } = self.coefficients[i as usize];
-                (net, i, columns)
-            }
+        let (net, size) = self.net(list, i);
+        if list.kind.is_stored() {
+            let source = &self.projections.sources[i as usize];
+            return (source.first, source.weights, size);
         }
+        (net, list.weights, size)
     }
 }
 
-/// The lists, the sources of the coefficient patches, and the number of points in all nets.
-fn lay_out<M: Connectivity>(
-    mesh: &FinalMesh<'_, M>,
-    order: &PatchOrder,
-    weights: &mut WeightTable,
-) -> (Vec<PatchList>, Vec<MatrixSource>, u32) {
-    let (mut lists, mut coefficients, mut end) = (Vec::new(), Vec::new(), 0);
-    for &(kind, ref patches) in &order.runs {
-        let (first_patch, count, first_index) = (patches.start, patches.len() as u32, end);
-        let mut list = PatchList { kind, first_patch, count, first_index, weights: 0 };
-        if let PatchKind::Extraordinary { valence } = kind {
-            list.weights = weights.offset(NetKind::Interior { valence }, Role::Gregory);
-        }
-        match kind.net_size() {
-            Some(size) => end += size * count,
-            None => {
-                coefficients = coefficient_sources(mesh, &order.quads[list.patches()], end, weights);
-                end = coefficients.last().map_or(end, |last| last.net + last.columns);
-            }
-        }
-        lists.push(list);
-    }
-    (lists, coefficients, end)
+/// Where everything goes.
+struct Layout {
+    lists: Vec<PatchList>,
+    stored: Vec<(u32, u32)>,
+    projections: Projections,
+    /// Points of all nets.
+    size: u32,
 }
 
-fn coefficient_sources<M: Connectivity>(
-    mesh: &FinalMesh<'_, M>,
-    quads: &[u32],
-    first_index: u32,
-    weights: &mut WeightTable,
-) -> Vec<MatrixSource> {
-    let source = |end: &mut u32, &quad: &u32| {
-        let (net, kind) = (*end, mesh.net_kind(quad));
-        let columns = kind.net_size() as u32;
-        *end += columns;
-        Some(MatrixSource { net, weights: weights.offset(kind, Role::Gregory), columns })
-    };
-    quads.iter().scan(first_index, source).collect()
+impl Layout {
+    fn new<M: Connectivity>(mesh: &FinalMesh<'_, M>, order: &PatchOrder, weights: &mut WeightTable) -> Self {
+        let mut layout = Self { lists: Vec::new(), stored: Vec::new(), projections: Projections::default(), size: 0 };
+        for &(kind, ref patches) in &order.runs {
+            let (first_patch, count, first_index) = (patches.start, patches.len() as u32, layout.size);
+            let mut list = PatchList { kind, first_patch, count, first_index, weights: 0 };
+            match kind {
+                PatchKind::Regular => layout.size += 16 * count,
+                PatchKind::Extraordinary { form, valence } => {
+                    list.weights = weights.offset(NetKind::Interior { valence }, Role::Patch(form));
+                    layout.size += (2 * valence + 8) * count;
+                }
+                PatchKind::Stored { form } => layout.store(mesh, &order.quads[list.patches()], form, weights),
+            }
+            layout.lists.push(list);
+        }
+        layout
+    }
+
+    /// Lays out patches whose change of basis runs before the draw.
+    fn store<M: Connectivity>(
+        &mut self,
+        mesh: &FinalMesh<'_, M>,
+        quads: &[u32],
+        form: PatchForm,
+        weights: &mut WeightTable,
+    ) {
+        weights.prepare(quads.iter().map(|&quad| (mesh.net_kind(quad), Role::Patch(form))).collect());
+        for &quad in quads {
+            let (net, kind) = (self.size, mesh.net_kind(quad));
+            let columns = kind.net_size() as u32;
+            let rows = rows(form, columns);
+            // All Gregory points are points; of a stam patch the first vector is one, the others are differences.
+            let absolute = if form == PatchForm::Stam { 1 } else { rows };
+            self.projections.push((net, columns), weights.offset(kind, Role::Patch(form)), rows, absolute);
+            self.stored.push((net, columns));
+            self.size += columns;
+        }
+    }
 }
 
 /// Nets of the regular list: inner ones in parallel, those at the boundary one by one because they share phantom points.
@@ -116,7 +138,7 @@ fn extraordinary_nets<M: Connectivity>(mesh: &FinalMesh<'_, M>, valence: u32, qu
     });
 }
 
-fn coefficient_nets<M: Connectivity>(mesh: &FinalMesh<'_, M>, quads: &[u32], nets: &mut [u32]) {
+fn stored_nets<M: Connectivity>(mesh: &FinalMesh<'_, M>, quads: &[u32], nets: &mut [u32]) {
     let points = quads.iter().flat_map(|&quad| {
         if mesh.tag(quad).is_boundary() { mesh.sector_net(quad) } else { mesh.interior_net(quad).collect() }
     });

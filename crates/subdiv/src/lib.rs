@@ -12,18 +12,24 @@ mod location;
 mod nets;
 mod patches;
 mod plan;
+mod projections;
 mod rank;
 mod records;
+mod scheme;
+mod spokes;
 mod tables;
 pub mod twin;
 mod weights;
 
 pub use connectivity::{Connectivity, QuadConnectivity};
 pub use error::PlanError;
-pub use location::{Locator, PatchLocation, SubFace};
-pub use patches::{PatchKind, PatchList, PatchRecord};
+pub use location::{Locator, PatchLocation, PatchPoint, Place, SubFace};
+pub use patches::{PatchForm, PatchKind, PatchList, PatchRecord};
 pub use plan::{PlanDesc, SurfacePlan};
+pub use projections::ProjectionSource;
 pub use records::MatrixSource;
+pub use scheme::{Scheme, UnknownScheme};
+pub use spokes::SpokeRecord;
 pub use tables::RefineTables;
 
 /// "No such element": a missing twin, a face without patch.

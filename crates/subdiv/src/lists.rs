@@ -19,24 +19,14 @@ pub(crate) struct PatchOrder {
 }
 
 /// The bucket of quads that are not drawn, after those of all kinds.
-const UNDRAWN: u8 = bucket(PatchKind::Coefficients) + 1;
+const UNDRAWN: u8 = (*LIST_VALENCES.end() - *LIST_VALENCES.start()) as u8 + 3;
 
-/// Kinds in the order of their lists.
+/// Kinds in the order of their lists. A plan has one kind in each: the scheme decides on the formula.
 const fn bucket(kind: PatchKind) -> u8 {
     match kind {
         PatchKind::Regular => 0,
-        PatchKind::Extraordinary { valence } => (valence - *LIST_VALENCES.start()) as u8 + 1,
-        PatchKind::Coefficients => (*LIST_VALENCES.end() - *LIST_VALENCES.start()) as u8 + 2,
-    }
-}
-
-fn kind(number: u8) -> PatchKind {
-    match number {
-        0 => PatchKind::Regular,
-        n if n < bucket(PatchKind::Coefficients) => {
-            PatchKind::Extraordinary { valence: LIST_VALENCES.start() + u32::from(n) - 1 }
-        }
-        _ => PatchKind::Coefficients,
+        PatchKind::Extraordinary { valence, .. } => (valence - *LIST_VALENCES.start()) as u8 + 1,
+        PatchKind::Stored { .. } => UNDRAWN - 1,
     }
 }
 
@@ -44,11 +34,11 @@ impl PatchOrder {
     pub(crate) fn new<M: Connectivity>(mesh: &FinalMesh<'_, M>, is_drawn: impl Fn(u32) -> bool + Sync) -> Self {
         let quads = mesh.quad_count() as u32;
         let bucket_of = |quad| if is_drawn(quad) { bucket(mesh.tag(quad).kind()) } else { UNDRAWN };
-        Self::sort(&(0..quads).into_par_iter().map(bucket_of).collect::<Vec<u8>>())
+        Self::sort(&(0..quads).into_par_iter().map(bucket_of).collect::<Vec<u8>>(), |quad| mesh.tag(quad).kind())
     }
 
     /// A counting sort.
-    fn sort(buckets: &[u8]) -> Self {
+    fn sort(buckets: &[u8], kind: impl Fn(u32) -> PatchKind) -> Self {
         let mut counts = [0; UNDRAWN as usize + 1];
         buckets.iter().for_each(|&bucket| counts[bucket as usize] += 1);
         let (mut runs, mut next, mut end) = (Vec::new(), [0; UNDRAWN as usize], 0);
@@ -57,7 +47,7 @@ impl PatchOrder {
             end += counts[bucket as usize];
             next[bucket as usize] = start;
             if start < end {
-                runs.push((kind(bucket), start..end));
+                runs.push(start..end);
             }
         }
         let mut quads = vec![0; end as usize];
@@ -70,6 +60,7 @@ impl PatchOrder {
             None => NONE,
         };
         let patch_of_quad = buckets.iter().enumerate().map(place).collect();
+        let runs = runs.into_iter().map(|run| (kind(quads[run.start as usize]), run)).collect();
         Self { runs, quads, patch_of_quad }
     }
 }
@@ -77,20 +68,25 @@ impl PatchOrder {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::PatchForm;
+
+    const FIVE: PatchKind = PatchKind::Extraordinary { form: PatchForm::Stam, valence: 5 };
+    const STORED: PatchKind = PatchKind::Stored { form: PatchForm::Stam };
 
     #[test]
     fn buckets_are_in_the_order_of_kinds() {
-        let kinds: Vec<PatchKind> = (0..UNDRAWN).map(kind).collect();
+        let listed = LIST_VALENCES.map(|valence| PatchKind::Extraordinary { form: PatchForm::Stam, valence });
+        let kinds: Vec<PatchKind> = [PatchKind::Regular].into_iter().chain(listed).chain([STORED]).collect();
         assert!(kinds.is_sorted());
         assert_eq!(kinds.iter().map(|&kind| bucket(kind)).collect::<Vec<u8>>(), (0..UNDRAWN).collect::<Vec<u8>>());
-        assert_eq!(kinds.len(), LIST_VALENCES.count() + 2);
     }
 
     #[test]
     fn quads_are_sorted_by_kind_and_stay_in_order_within_one() {
-        let five = PatchKind::Extraordinary { valence: 5 };
-        let order = PatchOrder::sort(&[UNDRAWN - 1, bucket(five), 0, UNDRAWN, 0, bucket(five)]);
-        assert_eq!(order.runs, [(PatchKind::Regular, 0..2), (five, 2..4), (PatchKind::Coefficients, 4..5)]);
+        let kinds = [Some(STORED), Some(FIVE), Some(PatchKind::Regular), None, Some(PatchKind::Regular), Some(FIVE)];
+        let buckets = kinds.map(|kind| kind.map_or(UNDRAWN, bucket));
+        let order = PatchOrder::sort(&buckets, |quad| kinds[quad as usize].unwrap());
+        assert_eq!(order.runs, [(PatchKind::Regular, 0..2), (FIVE, 2..4), (STORED, 4..5)]);
         assert_eq!(order.quads, [2, 4, 1, 5, 0]);
         assert_eq!(order.patch_of_quad, [4, 2, 0, NONE, 1, 3]);
     }

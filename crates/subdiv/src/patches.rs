@@ -3,42 +3,100 @@
 use bytemuck::{Pod, Zeroable};
 use osculate_cage::BoundaryRule;
 
-use crate::Connectivity;
 use crate::tables::is_corner;
+use crate::{Connectivity, Scheme};
 
 /// The valences whose nets fit the 32 points of a patch list (the report, section 4).
 pub(crate) const LIST_VALENCES: std::ops::RangeInclusive<u32> = 3..=12;
 
-/// How a patch is evaluated.
+/// The formula that a patch is evaluated by (`shaders/include/forms`).
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum PatchForm {
+    /// Bicubic Bezier patch: 16 points.
+    Bicubic,
+    /// Rational bicubic Gregory patch: 20 points.
+    Gregory,
+    /// Eigenbasis of subdivision: as many vectors as the net has points.
+    Stam,
+    /// Bezier patch of bidegree 7: 64 points.
+    Biseptic,
+}
+
+impl PatchForm {
+    /// The number by which shaders know it (`FORM_*` in shaders/include/constants.glsl).
+    pub const fn number(self) -> u32 {
+        match self {
+            Self::Bicubic => 0,
+            Self::Gregory => 1,
+            Self::Stam => 2,
+            Self::Biseptic => 3,
+        }
+    }
+
+    /// The name in results: that of the scheme that it belongs to, without the number of steps.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Bicubic => "regular",
+            Self::Gregory => "gregory",
+            Self::Stam => "stam",
+            Self::Biseptic => "biseptic",
+        }
+    }
+
+    const fn from_number(number: u32) -> Self {
+        match number {
+            1 => Self::Gregory,
+            2 => Self::Stam,
+            3 => Self::Biseptic,
+            _ => Self::Bicubic,
+        }
+    }
+
+    /// Whether the sides that leave an extraordinary vertex have a record of their own beside the cubic one of all edges.
+    pub const fn has_spokes(self) -> bool {
+        matches!(self, Self::Stam | Self::Biseptic)
+    }
+}
+
+/// How the control points of a patch come about, and what it is evaluated by: one pipeline each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PatchKind {
     /// Bicubic B-spline patch with a 16-point net; at a boundary part of the net is phantom points.
     Regular,
-    /// Net of 2n+8 points about an inner vertex of this valence, 3 to 12.
+    /// Net of 2n+8 points about an inner vertex of this valence, 3 to 12; the control stage changes the basis.
     Extraordinary {
+        /// Formula.
+        form: PatchForm,
         /// Valence n.
         valence: u32,
     },
     /// Any other patch: its change of basis runs before the draw, into the coefficient buffer.
-    Coefficients,
+    Stored {
+        /// Formula.
+        form: PatchForm,
+    },
 }
 
 impl PatchKind {
-    /// The number by which shaders know how to evaluate it (`KIND_*` in shaders/include/constants.glsl).
-    pub const fn number(self) -> u32 {
+    /// Formula.
+    pub const fn form(self) -> PatchForm {
         match self {
-            Self::Regular => 0,
-            Self::Extraordinary { .. } => 1,
-            Self::Coefficients => 2,
+            Self::Regular => PatchForm::Bicubic,
+            Self::Extraordinary { form, .. } | Self::Stored { form } => form,
         }
     }
 
-    /// Points of the nets of this kind; those of coefficient patches differ.
-    pub(crate) fn net_size(self) -> Option<u32> {
+    /// Whether control points come from the coefficient buffer.
+    pub const fn is_stored(self) -> bool {
+        matches!(self, Self::Stored { .. })
+    }
+
+    /// Points of the nets of this kind; those of stored patches differ.
+    pub fn net_size(self) -> Option<u32> {
         match self {
             Self::Regular => Some(16),
-            Self::Extraordinary { valence } => Some(2 * valence + 8),
-            Self::Coefficients => None,
+            Self::Extraordinary { valence, .. } => Some(2 * valence + 8),
+            Self::Stored { .. } => None,
         }
     }
 }
@@ -53,7 +111,7 @@ pub struct PatchList {
     pub first_patch: u32,
     /// Number of patches.
     pub count: u32,
-    /// First index of their nets. The nets of a coefficient list differ in length; find them through the patch records.
+    /// First index of their nets. The nets of a stored list differ in length.
     pub first_index: u32,
     /// First weight of their change of basis, for extraordinary lists.
     pub weights: u32,
@@ -74,9 +132,9 @@ pub struct PatchRecord {
     pub vertex: [u32; 4],
     /// Edge record of each side, times two, plus one if the patch walks the edge against the record.
     pub edge: [u32; 4],
-    /// First index of the net.
+    /// First index of the net; of a stored patch the first of its vectors in the coefficient buffer.
     pub net: u32,
-    /// First weight of the change of basis (extraordinary), or index in the coefficient buffer.
+    /// First weight of the change of basis; 0 where there is none that shaders read.
     pub basis: u32,
     /// Points of the net.
     pub net_size: u32,
@@ -85,10 +143,12 @@ pub struct PatchRecord {
 }
 
 impl PatchRecord {
-    /// The kinds as the shaders number them, in bits 0 and 1 of the tag.
-    pub const KIND_MASK: u32 = 3;
+    /// The formula as the shaders number it, in bits 0 to 2 of the tag.
+    pub const FORM_MASK: u32 = 7;
+    /// Set in the tag if control points come from the coefficient buffer.
+    pub const STORED: u32 = 8;
     /// Set in the tag if corner 0 or a side of the patch lies on the boundary.
-    pub const BOUNDARY: u32 = 4;
+    pub const BOUNDARY: u32 = 16;
     /// The valence of corner 0 begins at this bit of the tag (number of edges).
     pub const VALENCE_SHIFT: u32 = 8;
 
@@ -102,9 +162,14 @@ impl PatchRecord {
         Tag(self.tag).is_boundary()
     }
 
+    /// Its formula, and where its control points come from.
+    pub fn kind(&self) -> PatchKind {
+        Tag(self.tag).kind()
+    }
+
     /// Whether corner 0 is irregular, so that the patch is no bicubic.
     pub fn is_extraordinary(&self) -> bool {
-        Tag(self.tag).kind() != PatchKind::Regular
+        self.kind() != PatchKind::Regular
     }
 }
 
@@ -114,25 +179,29 @@ pub(crate) struct Tag(pub(crate) u32);
 
 impl Tag {
     fn new(kind: PatchKind, boundary: bool, valence: u32) -> Self {
-        Self(kind.number() | if boundary { PatchRecord::BOUNDARY } else { 0 } | valence << PatchRecord::VALENCE_SHIFT)
+        let flag = |set: bool, bit: u32| if set { bit } else { 0 };
+        let bits = flag(kind.is_stored(), PatchRecord::STORED) | flag(boundary, PatchRecord::BOUNDARY);
+        Self(kind.form().number() | bits | valence << PatchRecord::VALENCE_SHIFT)
     }
 
     /// What a vertex of the last mesh but one makes of the final quads about its vertex point, which has as many faces.
-    pub(crate) fn of_vertex(mesh: &impl Connectivity, rule: BoundaryRule, vertex: u32) -> Self {
+    pub(crate) fn of_vertex(mesh: &impl Connectivity, rule: BoundaryRule, scheme: Scheme, vertex: u32) -> Self {
         let faces = mesh.face_valence(vertex);
         if mesh.is_boundary_vertex(vertex) {
             let regular = faces == 2 || is_corner(mesh, rule, vertex);
-            Self::new(if regular { PatchKind::Regular } else { PatchKind::Coefficients }, true, faces + 1)
+            let stored = PatchKind::Stored { form: scheme.boundary_form() };
+            Self::new(if regular { PatchKind::Regular } else { stored }, true, faces + 1)
         } else {
-            Self::new(interior_kind(faces), false, faces)
+            Self::new(interior_kind(scheme, faces), false, faces)
         }
     }
 
     pub(crate) fn kind(self) -> PatchKind {
-        match self.0 & PatchRecord::KIND_MASK {
-            0 => PatchKind::Regular,
-            1 => PatchKind::Extraordinary { valence: self.valence() },
-            _ => PatchKind::Coefficients,
+        let form = PatchForm::from_number(self.0 & PatchRecord::FORM_MASK);
+        match form {
+            _ if self.0 & PatchRecord::STORED != 0 => PatchKind::Stored { form },
+            PatchForm::Bicubic => PatchKind::Regular,
+            _ => PatchKind::Extraordinary { form, valence: self.valence() },
         }
     }
 
@@ -146,10 +215,11 @@ impl Tag {
     }
 }
 
-fn interior_kind(valence: u32) -> PatchKind {
+fn interior_kind(scheme: Scheme, valence: u32) -> PatchKind {
+    let form = scheme.interior_form(valence);
     match valence {
         4 => PatchKind::Regular,
-        n if LIST_VALENCES.contains(&n) => PatchKind::Extraordinary { valence },
-        _ => PatchKind::Coefficients,
+        n if LIST_VALENCES.contains(&n) => PatchKind::Extraordinary { form, valence },
+        _ => PatchKind::Stored { form },
     }
 }

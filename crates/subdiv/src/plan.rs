@@ -11,19 +11,26 @@ use crate::nets::FinalMesh;
 use crate::patches::{LIST_VALENCES, Tag};
 use crate::records::{RecordSources, assign};
 use crate::weights::WeightTable;
-use crate::{Connectivity, Locator, MatrixSource, PatchList, PatchRecord, PlanError, QuadConnectivity, RefineTables};
+use crate::{
+    Connectivity, Locator, PatchForm, PatchList, PatchRecord, PlanError, ProjectionSource, QuadConnectivity,
+    RefineTables, Scheme, SpokeRecord,
+};
 
 /// How to plan a cage.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct PlanDesc {
     /// Boundary rule; `None` takes that of the file's tags, else edge-and-corner.
     pub boundary: Option<BoundaryRule>,
+    /// Scheme of the patches at extraordinary vertices.
+    pub scheme: Scheme,
 }
 
 /// The plan of a cage: tables of its refinement steps, patches of the final mesh, sources of records.
 pub struct SurfacePlan {
     /// Boundary rule in force.
     pub rule: BoundaryRule,
+    /// Scheme.
+    pub scheme: Scheme,
     /// Tables of the steps: one for cages of quads, else two. That isolates extraordinary vertices: at most corner 0 of a final quad is one.
     pub levels: Vec<RefineTables>,
     /// Points in the buffer: of all levels, then phantom points.
@@ -32,7 +39,7 @@ pub struct SurfacePlan {
     pub first_phantom: u32,
     /// Phantom points: indices (a, b, c, d) stand for 2 (2a - b) - (2c - d).
     pub reflections: Vec<[u32; 4]>,
-    /// Patches by kind: regular, extraordinary by valence, coefficients. Empty lists are left out.
+    /// Patches by kind: regular, extraordinary by valence, stored. Empty lists are left out.
     pub lists: Vec<PatchList>,
     /// Nets of all patches, in list order.
     pub nets: Vec<u32>,
@@ -42,14 +49,18 @@ pub struct SurfacePlan {
     pub quads: Vec<u32>,
     /// Patch of each final quad, [`crate::NONE`] if it is not drawn.
     pub patch_of_quad: Vec<u32>,
-    /// Matrices of changes of basis and records.
+    /// Matrices of changes of basis and records, and functions of eigenbases.
     pub weights: Vec<f32>,
     /// Sources of vertex records.
     pub vertex_records: RecordSources,
     /// Sources of edge records.
     pub edge_records: RecordSources,
-    /// Sources of the coefficient list's Gregory points.
-    pub coefficients: Vec<MatrixSource>,
+    /// A spoke record for each general edge record.
+    pub spokes: Vec<SpokeRecord>,
+    /// Sources of the coefficient buffer: control points of stored patches, then vectors of spokes.
+    pub projections: Vec<ProjectionSource>,
+    /// Vectors in the coefficient buffer.
+    pub vector_count: u32,
     /// Whether each edge record belongs to one drawn patch only: the boundary of what is drawn.
     pub boundary_edges: Vec<bool>,
     /// From final quads to base faces and back.
@@ -72,34 +83,38 @@ impl SurfacePlan {
         let (base, locator) = (cage.topology(), Locator::new(cage, steps));
         let tables = RefineTables::build(base, rule, 0);
         if steps == 1 {
-            return Self::finish(base, vec![tables], rule, locator, |quad| drawn[base.face(quad) as usize]);
+            return Self::finish(base, vec![tables], (rule, desc.scheme), locator, |quad| {
+                drawn[base.face(quad) as usize]
+            });
         }
         let mesh = QuadConnectivity::refine(base);
         let second = RefineTables::build(&mesh, rule, tables.first_new);
         let levels = vec![tables, second];
-        Self::finish(&mesh, levels, rule, locator, |quad| drawn[base.face(quad / 4) as usize])
+        Self::finish(&mesh, levels, (rule, desc.scheme), locator, |quad| drawn[base.face(quad / 4) as usize])
     }
 
     /// Plans the patches of the mesh after one step on `mesh`, the last of `levels`.
     fn finish<M: Connectivity>(
         mesh: &M,
         levels: Vec<RefineTables>,
-        rule: BoundaryRule,
+        (rule, scheme): (BoundaryRule, Scheme),
         locator: Locator,
         is_drawn: impl Fn(u32) -> bool + Sync,
     ) -> Result<Self, PlanError> {
         let vertices = mesh.vertex_count() as u32;
-        let tags: Vec<Tag> = (0..vertices).into_par_iter().map(|v| Tag::of_vertex(mesh, rule, v)).collect();
-        check_nets(&tags)?;
+        let tags: Vec<Tag> = (0..vertices).into_par_iter().map(|v| Tag::of_vertex(mesh, rule, scheme, v)).collect();
+        check_nets(&tags, scheme)?;
         let first_point = levels.last().map_or(0, |level| level.first_new);
         let mesh = FinalMesh { old: mesh, first_point, tags };
         let order = PatchOrder::new(&mesh, is_drawn);
         let mut weights = WeightTable::default();
         let nets = PatchNets::gather(&mesh, &order, &mut weights);
-        let records = assign(&mesh, &order, &nets, &mut weights);
+        let mut projections = nets.projections.clone();
+        let records = assign(&mesh, &order, &nets, &mut weights, &mut projections);
         let first_phantom = first_point + mesh.point_count() as u32;
         Ok(Self {
             rule,
+            scheme,
             levels,
             point_count: first_phantom + nets.phantoms.reflections.len() as u32,
             first_phantom,
@@ -112,7 +127,9 @@ impl SurfacePlan {
             weights: weights.weights,
             vertex_records: records.vertices,
             edge_records: records.edges,
-            coefficients: nets.coefficients,
+            spokes: records.spokes,
+            projections: projections.sources,
+            vector_count: projections.count,
             boundary_edges: records.boundary_edges,
             locator,
         })
@@ -123,9 +140,9 @@ impl SurfacePlan {
         self.levels.len() as u32
     }
 
-    /// Number of coefficient patches.
-    pub fn coefficient_count(&self) -> usize {
-        self.coefficients.len()
+    /// Number of the first edge record that does not come from a regular net: the one of the first spoke record.
+    pub fn first_general_edge(&self) -> u32 {
+        self.edge_records.regular.len() as u32
     }
 
     /// Bytes of the plan's tables on the device.
@@ -139,7 +156,8 @@ impl SurfacePlan {
             + size_of_val(self.weights.as_slice())
             + sources(&self.vertex_records)
             + sources(&self.edge_records)
-            + size_of_val(self.coefficients.as_slice())
+            + size_of_val(self.spokes.as_slice())
+            + size_of_val(self.projections.as_slice())
     }
 }
 
@@ -155,7 +173,7 @@ fn check_size(cage: &Cage, steps: u32) -> Result<(), PlanError> {
 
 /// Refuses cages whose nets could overflow 32-bit numbers, and those with vertices of so high a valence that their nets, which grow with its square, or
 /// their changes of basis, of which a boundary vertex has one per face, would fill the memory of most machines.
-fn check_nets(tags: &[Tag]) -> Result<(), PlanError> {
+fn check_nets(tags: &[Tag], scheme: Scheme) -> Result<(), PlanError> {
     let points = |valence: u32| u64::from(valence) * u64::from(2 * valence + 8);
     let (count, limit) = (tags.par_iter().map(|tag| points(tag.valence())).sum(), u32::MAX.into());
     if count > limit {
@@ -163,10 +181,8 @@ fn check_nets(tags: &[Tag]) -> Result<(), PlanError> {
     }
     let high = |tag: &&Tag| !LIST_VALENCES.contains(&tag.valence());
     let points = tags.par_iter().filter(high).map(|tag| points(tag.valence())).sum::<u64>();
-    let sectors: BTreeSet<u32> =
-        tags.iter().filter(high).filter(|tag| tag.is_boundary()).map(|tag| tag.valence()).collect();
-    let weights =
-        sectors.into_iter().map(|valence| ROWS * u64::from(valence) * u64::from(2 * valence + 8)).sum::<u64>();
+    let kinds: BTreeSet<(bool, u32)> = tags.iter().filter(high).map(|tag| (tag.is_boundary(), tag.valence())).collect();
+    let weights = kinds.into_iter().map(|(boundary, valence)| weights_at(scheme, boundary, valence)).sum::<u64>();
     if points.max(weights) > HIGH_VALENCE_LIMIT {
         let valence = tags.iter().map(|tag| tag.valence()).max().unwrap_or(0);
         return Err(PlanError::HighValence { valence, count: points.max(weights), limit: HIGH_VALENCE_LIMIT });
@@ -174,8 +190,20 @@ fn check_nets(tags: &[Tag]) -> Result<(), PlanError> {
     Ok(())
 }
 
-/// Rows of the matrices of a net: Gregory points, two edge records, a vertex record.
-const ROWS: u64 = 20 + 2 * 8 + 3;
+/// About how many weights the patches at a vertex take: every quad of a boundary vertex has its own, those of an inner vertex share theirs.
+fn weights_at(scheme: Scheme, boundary: bool, valence: u32) -> u64 {
+    let (quads, net) = (if boundary { u64::from(valence) } else { 1 }, u64::from(2 * valence + 8));
+    let form = if boundary { scheme.boundary_form() } else { scheme.interior_form(valence) };
+    let rows = match form {
+        // A square matrix and 48 floats a mode; a side has a matrix nearly as large, and 8 floats a mode.
+        PatchForm::Stam => 2 * net + 56,
+        _ => 20,
+    };
+    quads * net * (rows + RECORD_ROWS)
+}
+
+/// Rows of the matrices of records: two edges, a vertex.
+const RECORD_ROWS: u64 = 2 * 8 + 3;
 
 /// Most numbers that vertices of high valence may ask for: half a gibibyte of nets or of weights.
 const HIGH_VALENCE_LIMIT: u64 = 1 << 27;

@@ -6,9 +6,11 @@ use rayon::prelude::*;
 use crate::gather::PatchNets;
 use crate::lists::PatchOrder;
 use crate::nets::FinalMesh;
+use crate::projections::Projections;
 use crate::rank::RankedSet;
+use crate::spokes::{SpokeRecord, SpokeSide, spoke_records};
 use crate::weights::{Role, WeightTable};
-use crate::{Connectivity, NONE, PatchRecord};
+use crate::{Connectivity, NONE, PatchKind, PatchRecord};
 
 /// A matrix of weights times a net (`MatrixSource` in shaders/include/sources.glsl).
 #[repr(C)]
@@ -43,24 +45,30 @@ pub(crate) struct Records {
     pub(crate) patches: Vec<PatchRecord>,
     pub(crate) vertices: RecordSources,
     pub(crate) edges: RecordSources,
+    /// A spoke record for each general edge record.
+    pub(crate) spokes: Vec<SpokeRecord>,
     /// Whether each edge record belongs to one drawn patch only.
     pub(crate) boundary_edges: Vec<bool>,
 }
 
 /// Gives every vertex and edge of drawn patches a record, owned by the first patch in patch order that has it (so by a regular one if there is one),
-/// and the patches the records' numbers. One owner computes a record once; both sides read it.
+/// and the patches the records' numbers. One owner computes a record once; both sides read it. Vectors of spokes are added to `projections`.
 pub(crate) fn assign<M: Connectivity>(
     mesh: &FinalMesh<'_, M>,
     order: &PatchOrder,
     nets: &PatchNets,
     weights: &mut WeightTable,
+    projections: &mut Projections,
 ) -> Records {
     let slots = Slots { mesh, order };
     let owned = Owned::new(&slots);
     let patches = owned.patch_records(nets);
     let first_irregular = nets.regular_count();
-    let (vertices, edges) = general_sources(&owned, &patches, first_irregular, weights);
+    let (vertices, edges) = general_sources(&owned, nets, weights);
     let edge_slots = owned.edges.members();
+    let first_general = edge_slots.partition_point(|&slot| slot < 4 * first_irregular);
+    let sides: Vec<_> = edge_slots[first_general..].iter().map(|&slot| spoke_side(&slots, nets, slot)).collect();
+    let spokes = spoke_records(&sides, weights, projections);
     let is_boundary = |&slot: &u32| slots.twin(slots.quad(slot), slot % 4) == NONE;
     let boundary_edges = edge_slots.par_iter().map(is_boundary).collect();
     let regular = |mut slots: Vec<u32>| {
@@ -71,6 +79,7 @@ pub(crate) fn assign<M: Connectivity>(
         patches,
         vertices: RecordSources { regular: regular(owned.vertices.members()), general: vertices },
         edges: RecordSources { regular: regular(edge_slots), general: edges },
+        spokes,
         boundary_edges,
     }
 }
@@ -212,24 +221,43 @@ impl<'a, M: Connectivity> Owned<'a, M> {
 /// Sources of the vertex and edge records that irregular patches own.
 fn general_sources<M: Connectivity>(
     owned: &Owned<'_, M>,
-    patches: &[PatchRecord],
-    first_irregular: u32,
+    nets: &PatchNets,
     weights: &mut WeightTable,
 ) -> (Vec<MatrixSource>, Vec<MatrixSource>) {
     let Slots { mesh, order } = owned.slots;
     let (mut vertices, mut edges) = (Vec::new(), Vec::new());
-    for patch in first_irregular..patches.len() as u32 {
-        let PatchRecord { net, net_size: columns, .. } = patches[patch as usize];
-        let kind = mesh.net_kind(order.quads[patch as usize]);
-        let mut source = |role| MatrixSource { net, weights: weights.offset(kind, role), columns };
-        for k in 0..4 {
-            if owned.vertices.contains(4 * patch + k) {
-                vertices.push(source(Role::Vertex(k as usize)));
-            }
-            if owned.edges.contains(4 * patch + k) {
-                edges.push(source(Role::Edge(k as usize)));
+    for list in nets.lists.iter().filter(|list| list.kind != PatchKind::Regular) {
+        for i in 0..list.count {
+            let patch = list.first_patch + i;
+            let (net, columns) = nets.net(list, i);
+            let kind = mesh.net_kind(order.quads[patch as usize]);
+            let mut source = |role| MatrixSource { net, weights: weights.offset(kind, role), columns };
+            for k in 0..4 {
+                if owned.vertices.contains(4 * patch + k) {
+                    vertices.push(source(Role::Vertex(k as usize)));
+                }
+                if owned.edges.contains(4 * patch + k) {
+                    edges.push(source(Role::Edge(k as usize)));
+                }
             }
         }
     }
     (vertices, edges)
+}
+
+/// The side that a spoke record is made from, if the edge with that slot is a spoke: side 0 of the patch on its left, or side 3 of the other where that is not
+/// drawn.
+fn spoke_side<M: Connectivity>(slots: &Slots<'_, M>, nets: &PatchNets, slot: u32) -> Option<SpokeSide> {
+    let side_of = |slot: u32| -> Option<SpokeSide> {
+        let (patch, side) = (slot / 4, (slot % 4) as usize);
+        let list = nets.list_of(patch);
+        let kind = slots.mesh.net_kind(slots.quad(slot));
+        let spoke = (side == 0 || side == 3) && list.kind.form().has_spokes();
+        spoke.then(|| SpokeSide { kind, form: list.kind.form(), side, net: nets.net(list, patch - list.first_patch) })
+    };
+    let own = side_of(slot)?;
+    match slots.twin(slots.quad(slot), slot % 4) {
+        twin if own.side == 3 && twin != NONE => side_of(twin),
+        _ => Some(own),
+    }
 }

@@ -3,7 +3,7 @@
 
 use glam::Vec3;
 
-use crate::{MatrixSource, RefineTables, SurfacePlan};
+use crate::{MatrixSource, ProjectionSource, RefineTables, SurfacePlan};
 
 /// Points of all levels and phantom points, from the cage's own points (shaders/subdivide, shaders/records/phantom.comp).
 ///
@@ -138,8 +138,29 @@ fn bspline_to_bezier([a, b, c, d]: [Vec3; 4]) -> [Vec3; 4] {
 }
 
 /// shaders/records/coefficients.comp.
-pub fn coefficients(plan: &SurfacePlan, points: &[Vec3]) -> Vec<[Vec3; 20]> {
-    plan.coefficients.iter().map(|source| std::array::from_fn(|row| matrix_row(plan, points, source, row))).collect()
+pub fn coefficients(plan: &SurfacePlan, points: &[Vec3]) -> Vec<Vec3> {
+    let mut vectors = Vec::with_capacity(plan.vector_count as usize);
+    for (i, source) in plan.projections.iter().enumerate() {
+        let end = plan.projections.get(i + 1).map_or(plan.vector_count, |next| next.first);
+        vectors.extend((0..end - source.first).map(|row| projected(plan, points, source, row)));
+    }
+    vectors
+}
+
+/// A row of a matrix times a net less its first point, summed from the last point to the first with compensation (W. Kahan, *Further remarks on reducing
+/// truncation errors*, 1965).
+fn projected(plan: &SurfacePlan, points: &[Vec3], source: &ProjectionSource, row: u32) -> Vec3 {
+    let net = &plan.nets[source.net as usize..][..source.columns as usize];
+    let weights = &plan.weights[(source.weights + row * source.columns) as usize..][..net.len()];
+    let origin = points[net[0] as usize];
+    let (mut sum, mut lost) = (Vec3::ZERO, Vec3::ZERO);
+    for (&weight, &point) in weights.iter().zip(net).skip(1).rev() {
+        let term = weight * (points[point as usize] - origin) - lost;
+        let next = sum + term;
+        lost = (next - sum) - term;
+        sum = next;
+    }
+    if row < source.absolute_rows { origin + sum } else { sum }
 }
 
 fn matrix_row(plan: &SurfacePlan, points: &[Vec3], source: &MatrixSource, row: usize) -> Vec3 {

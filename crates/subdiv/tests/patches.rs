@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use osculate_cage::{BoundaryRule, Cage};
-use osculate_subdiv::{NONE, PatchKind, PlanDesc, PlanError, SurfacePlan, twin};
+use osculate_subdiv::{NONE, PatchForm, PatchKind, PlanDesc, PlanError, Scheme, SurfacePlan, twin};
 
 mod common;
 
@@ -10,10 +10,10 @@ const RULES: [BoundaryRule; 3] = [BoundaryRule::EdgeAndCorner, BoundaryRule::Edg
 
 fn plans() -> Vec<(String, Cage, SurfacePlan)> {
     let mut plans = Vec::new();
-    for rule in RULES {
+    for (scheme, rule) in Scheme::ALL.iter().flat_map(|&scheme| RULES.map(|rule| (scheme, rule))) {
         for (name, cage) in common::zoo() {
-            match SurfacePlan::build(&cage, &PlanDesc { boundary: Some(rule) }) {
-                Ok(plan) => plans.push((format!("{name}, {rule:?}"), cage, plan)),
+            match SurfacePlan::build(&cage, &PlanDesc { boundary: Some(rule), scheme }) {
+                Ok(plan) => plans.push((format!("{name}, {scheme}, {rule:?}"), cage, plan)),
                 Err(PlanError::NothingToDraw { .. }) if rule == BoundaryRule::None => {}
                 Err(error) => panic!("{name}: {error}"),
             }
@@ -48,14 +48,18 @@ fn lists_follow_each_other_and_hold_whole_nets() {
         for list in &plan.lists {
             assert_eq!((list.first_patch, list.first_index), (patch, index), "{name}: {:?}", list.kind);
             for record in &plan.patches[patch as usize..][..list.count as usize] {
-                assert_eq!(record.net, index, "{name}");
+                assert_eq!(record.kind(), list.kind, "{name}");
                 match list.kind {
-                    PatchKind::Regular => assert_eq!(record.net_size, 16, "{name}"),
-                    PatchKind::Extraordinary { valence } => {
-                        assert_eq!((record.net_size, record.valence()), (2 * valence + 8, valence), "{name}");
-                        assert!(record.net_size <= 32, "{name}");
+                    PatchKind::Regular => assert_eq!((record.net, record.net_size), (index, 16), "{name}"),
+                    PatchKind::Extraordinary { valence, .. } => {
+                        assert_eq!((record.net, record.net_size), (index, 2 * valence + 8), "{name}");
+                        assert!(record.valence() == valence && record.net_size <= 32, "{name}");
                     }
-                    PatchKind::Coefficients => assert!(record.is_extraordinary(), "{name}"),
+                    PatchKind::Stored { form } => {
+                        let source = plan.projections.iter().find(|source| source.first == record.net).unwrap();
+                        assert_eq!((source.net, source.columns), (index, record.net_size), "{name}");
+                        assert_eq!(source.absolute_rows, if form == PatchForm::Stam { 1 } else { 20 }, "{name}");
+                    }
                 }
                 index += record.net_size;
             }
@@ -188,13 +192,16 @@ fn plans_do_not_depend_on_the_number_of_threads() {
         let (vertices, edges) = (&plan.vertex_records, &plan.edge_records);
         let tables = plan.levels.iter().flat_map(|level| [level.face_indices.clone(), level.vertex_indices.clone()]);
         let plain = [&plan.nets, &plan.quads, &plan.patch_of_quad, &vertices.regular, &edges.regular];
-        let general = [&vertices.general, &edges.general, &plan.coefficients].map(|sources| sources.clone());
+        let general = [&vertices.general, &edges.general].map(|sources| sources.clone());
+        let general = (general, plan.projections.clone(), plan.spokes.clone());
         let lists: Vec<Vec<u32>> = tables.chain(plain.into_iter().cloned()).collect();
         (lists, plan.patches.clone(), general, plan.reflections.clone(), plan.boundary_edges.clone())
     };
     let with_threads = |threads, cage: &Cage| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        arrays(&pool.install(|| SurfacePlan::build(cage, &PlanDesc::default()).unwrap()))
+        arrays(&pool.install(|| {
+            SurfacePlan::build(cage, &PlanDesc { scheme: Scheme::Biseptic, ..PlanDesc::default() }).unwrap()
+        }))
     };
     for (name, cage) in common::zoo() {
         assert!(with_threads(1, &cage) == with_threads(3, &cage), "{name}");

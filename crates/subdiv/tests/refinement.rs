@@ -12,7 +12,7 @@ mod common;
 const RULES: [BoundaryRule; 2] = [BoundaryRule::EdgeAndCorner, BoundaryRule::EdgeOnly];
 
 fn plan(cage: &Cage, rule: BoundaryRule) -> SurfacePlan {
-    SurfacePlan::build(cage, &PlanDesc { boundary: Some(rule) }).unwrap()
+    SurfacePlan::build(cage, &PlanDesc { boundary: Some(rule), ..PlanDesc::default() }).unwrap()
 }
 
 fn corners(mesh: &QuadConnectivity) -> Vec<u32> {

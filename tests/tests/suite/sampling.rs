@@ -2,15 +2,15 @@
 
 use glam::{DVec3, Vec3};
 use osculate::{
-    BoundaryRule, Cage, CapturedVertex, EngineError, Factors, Spacing, SubFace, Surface, SurfaceDesc, SurfacePoint,
-    Tessellation,
+    BoundaryRule, Cage, CapturedVertex, EngineError, Factors, Scheme, Spacing, SubFace, Surface, SurfaceDesc,
+    SurfacePoint, Tessellation,
 };
 use osculate_shaders::layout::SampleRequest;
-use osculate_subdiv::{PatchKind, PatchRecord, twin};
+use osculate_subdiv::{PatchRecord, twin};
 use osculate_surface::jet::Jet;
 use osculate_surface::reference::{Boundary, Mesh, Reference};
 use osculate_surface::{NetKind, bezier, gregory};
-use osculate_tests::{gpu, surface, zoo};
+use osculate_tests::{gpu, surface, surface_of, zoo};
 
 fn captured(surface: &Surface, tessellation: &Tessellation) -> Vec<CapturedVertex> {
     let mut all = Vec::new();
@@ -28,8 +28,8 @@ fn captured(surface: &Surface, tessellation: &Tessellation) -> Vec<CapturedVerte
 fn the_sampling_kernel_gives_the_bits_of_the_evaluation_stage() {
     let gpu = gpu();
     let exact = gpu.device().info().is_llvmpipe;
-    for specimen in zoo::all() {
-        let surface = Surface::new(&gpu, &specimen.cage, &SurfaceDesc::default()).unwrap();
+    for (specimen, scheme) in zoo::all().iter().flat_map(|specimen| Scheme::ALL.iter().map(move |&s| (specimen, s))) {
+        let surface = surface_of(&gpu, &specimen.cage, scheme, None).unwrap();
         let tessellation = Tessellation { factors: Factors::Uniform(3.4), spacing: Spacing::Odd };
         let vertices = captured(&surface, &tessellation);
         let requests: Vec<SampleRequest> =
@@ -43,7 +43,7 @@ fn the_sampling_kernel_gives_the_bits_of_the_evaluation_stage() {
                 true => a.to_bits() == b.to_bits() || (a.abs() < f32::MIN_POSITIVE && b.abs() < f32::MIN_POSITIVE),
                 false => (a - b).abs() < 1e-5,
             });
-            assert!(same, "{}: {vertex:?} was drawn, {sampled:?} sampled", specimen.name);
+            assert!(same, "{}, {scheme}: {vertex:?} was drawn, {sampled:?} sampled", specimen.name);
         }
     }
 }
@@ -136,8 +136,8 @@ fn gregory_points(surface: &Surface) -> Vec<(u32, [DVec3; 20])> {
     let points: Vec<Vec3> = surface.read_points().unwrap().into_iter().map(Vec3::from).collect();
     let coefficients = twin::coefficients(plan, &points);
     let of = |record: &PatchRecord| -> [DVec3; 20] {
-        if record.tag & PatchRecord::KIND_MASK == PatchKind::Coefficients.number() {
-            return coefficients[record.basis as usize].map(|p| p.as_dvec3());
+        if record.kind().is_stored() {
+            return std::array::from_fn(|i| coefficients[record.net as usize + i].as_dvec3());
         }
         let net = &plan.nets[record.net as usize..][..record.net_size as usize];
         let net: Vec<DVec3> = net.iter().map(|&i| points[i as usize].as_dvec3()).collect();

@@ -1,9 +1,9 @@
 //! The compute kernels against their twins on the host.
 
 use glam::{DVec3, Vec3};
-use osculate::{BoundaryRule, Surface};
+use osculate::{BoundaryRule, Scheme, Surface};
 use osculate_subdiv::twin;
-use osculate_tests::{RULES, gpu, surface, zoo};
+use osculate_tests::{RULES, gpu, surface, surface_of, zoo};
 
 fn cage_points(surface: &Surface, points: &[DVec3]) -> Vec<Vec3> {
     points.iter().map(|&p| surface.space().enter(p)).collect()
@@ -27,10 +27,10 @@ fn points_and_records_are_those_of_the_twins() {
     let gpu = gpu();
     let exact = gpu.device().info().is_llvmpipe;
     let mut compared = 0;
-    for specimen in zoo::all() {
+    for (specimen, scheme) in zoo::all().iter().flat_map(|specimen| Scheme::ALL.iter().map(move |&s| (specimen, s))) {
         for rule in RULES {
-            let Some(surface) = surface(&gpu, &specimen.cage, Some(rule)) else { continue };
-            let name = format!("{}, {rule:?}", specimen.name);
+            let Some(surface) = surface_of(&gpu, &specimen.cage, scheme, Some(rule)) else { continue };
+            let name = format!("{}, {scheme}, {rule:?}", specimen.name);
             let points = twin::points(surface.plan(), &cage_points(&surface, specimen.cage.positions()));
             let arrays: Vec<[f32; 3]> = points.iter().map(|p| p.to_array()).collect();
             assert_same_bits(&format!("{name}: point"), &surface.read_points().unwrap(), &arrays, exact);
@@ -46,7 +46,7 @@ fn points_and_records_are_those_of_the_twins() {
                 twin::edge_records(surface.plan(), &points).into_iter().flatten().map(|p| p.to_array()).collect();
             assert_same_bits(&format!("{name}: edge record"), &surface.read_edge_records().unwrap(), &records, exact);
             let coefficients: Vec<[f32; 3]> =
-                twin::coefficients(surface.plan(), &points).into_iter().flatten().map(|p| p.to_array()).collect();
+                twin::coefficients(surface.plan(), &points).into_iter().map(|p| p.to_array()).collect();
             assert_same_bits(
                 &format!("{name}: coefficient"),
                 &surface.read_coefficients().unwrap(),

@@ -1,9 +1,9 @@
 //! No cracks: proof by record keys over the zoo, and proof that the proof can fail.
 
 use glam::DVec3;
-use osculate::{Cage, Camera, CheckReport, EngineDesc, Factors, Spacing, Surface, Tessellation, check};
+use osculate::{Cage, Camera, CheckReport, EngineDesc, Factors, Scheme, Spacing, Surface, Tessellation, check};
 use osculate_tests::mutation::{Mutation, mutated};
-use osculate_tests::{RULES, gpu, gpu_with, gpu_with_shaders, reference_folder, surface, zoo};
+use osculate_tests::{RULES, gpu, gpu_with, gpu_with_shaders, reference_folder, surface, surface_of, zoo};
 
 fn assert_watertight(name: &str, surface: &Surface, tessellation: &Tessellation) -> CheckReport {
     let report = check(surface, tessellation).unwrap();
@@ -36,12 +36,13 @@ fn the_zoo_is_watertight_at_integer_and_fractional_levels() {
     let gpu = gpu();
     let levels =
         [level(1.0, Spacing::Equal), level(5.0, Spacing::Equal), level(3.3, Spacing::Odd), level(4.7, Spacing::Even)];
-    for specimen in zoo::all() {
+    for (specimen, scheme) in zoo::all().iter().flat_map(|specimen| Scheme::ALL.iter().map(move |&s| (specimen, s))) {
         for rule in RULES {
-            let Some(surface) = surface(&gpu, &specimen.cage, Some(rule)) else { continue };
+            let Some(surface) = surface_of(&gpu, &specimen.cage, scheme, Some(rule)) else { continue };
+            let name = format!("{}, {scheme}, {rule:?}", specimen.name);
             for tessellation in &levels {
-                let report = assert_watertight(&format!("{}, {rule:?}", specimen.name), &surface, tessellation);
-                assert_eq!(report.weld.open, 0, "{}: {report:?}", specimen.name);
+                let report = assert_watertight(&name, &surface, tessellation);
+                assert_eq!(report.weld.open, 0, "{name}: {report:?}");
             }
         }
     }
@@ -51,9 +52,11 @@ fn the_zoo_is_watertight_at_integer_and_fractional_levels() {
 fn the_zoo_is_watertight_with_adaptive_factors() {
     let gpu = gpu();
     for specimen in zoo::all() {
-        let Some(surface) = surface(&gpu, &specimen.cage, None) else { continue };
-        for tessellation in adaptive(&specimen.cage, 8.0) {
-            assert_watertight(&specimen.name, &surface, &tessellation);
+        for &scheme in Scheme::ALL {
+            let Some(surface) = surface_of(&gpu, &specimen.cage, scheme, None) else { continue };
+            for tessellation in adaptive(&specimen.cage, 8.0) {
+                assert_watertight(&format!("{}, {scheme}", specimen.name), &surface, &tessellation);
+            }
         }
     }
 }
@@ -107,7 +110,8 @@ fn patches_numbered_by_the_device_are_noticed() {
         from: "uint id = net_patch[0];",
         to: "uint id = list.first_patch + uint(gl_PrimitiveID);",
     };
-    let gpu = gpu_with(EngineDesc { shaders: mutated(&[mutation]), patches_per_draw: Some(5_000), ..EngineDesc::default() });
+    let gpu =
+        gpu_with(EngineDesc { shaders: mutated(&[mutation]), patches_per_draw: Some(5_000), ..EngineDesc::default() });
     let drawn = surface(&gpu, &zoo::grid(100, 100), None).unwrap();
     let report = check(&drawn, &level(1.0, Spacing::Equal)).unwrap();
     assert!(report.wrong_patches > 0, "{report:?}");
@@ -139,8 +143,14 @@ fn place_and_size_do_not_matter() {
         let cage = zoo::shipped(name);
         for (scale, offset) in [(1.0, 1e5), (1e-3, 0.0), (1e3, 0.0), (1e-3, 1e5)] {
             let moved = zoo::moved(&cage, scale, DVec3::splat(offset));
-            let surface = surface(&gpu, &moved, None).unwrap();
-            assert_watertight(&format!("{name} x {scale} + {offset}"), &surface, &level(4.0, Spacing::Equal));
+            for &scheme in Scheme::ALL {
+                let surface = surface_of(&gpu, &moved, scheme, None).unwrap();
+                assert_watertight(
+                    &format!("{name} x {scale} + {offset}, {scheme}"),
+                    &surface,
+                    &level(4.0, Spacing::Equal),
+                );
+            }
         }
     }
 }
@@ -163,7 +173,7 @@ fn sabotaged(
 #[test]
 fn edges_evaluated_from_patches_are_noticed() {
     let mutation = Mutation {
-        path: "include/records.glsl",
+        path: "include/forms/form.glsl",
         from: "if (side == 4u) {",
         to: "if (side == 4u || !((uv.x == 0.0 || uv.x == 1.0) && (uv.y == 0.0 || uv.y == 1.0))) {",
     };
@@ -176,7 +186,7 @@ fn edges_evaluated_from_patches_are_noticed() {
 
 #[test]
 fn corners_evaluated_from_edges_are_noticed() {
-    let mutation = Mutation { path: "include/records.glsl", from: "if (corner) {", to: "if (corner && false) {" };
+    let mutation = Mutation { path: "include/forms/form.glsl", from: "if (corner) {", to: "if (corner && false) {" };
     sabotaged(&[mutation], |_| level(5.0, Spacing::Equal), |report| report.split_positions > 0);
 }
 
@@ -205,9 +215,9 @@ fn factors_from_the_centre_of_patches_are_noticed() {
 #[test]
 fn a_normal_of_the_patch_on_an_edge_is_noticed() {
     let mutation = Mutation {
-        path: "include/records.glsl",
-        from: "    if (!shared_point(patch_id, uv, point)) {\n        point = SurfacePoint",
-        to: "    bool on_record = shared_point(patch_id, uv, point);\n    point.normal = unit_or_zero(cross_product(inner.du, inner.dv));\n    if (!on_record) {\n        point = SurfacePoint",
+        path: "include/forms/form.glsl",
+        from: "    if (!shared_point(id, uv, point)) {\n        point = SurfacePoint",
+        to: "    bool on_record = shared_point(id, uv, point);\n    point.normal = unit_or_zero(inner.plane);\n    if (!on_record) {\n        point = SurfacePoint",
     };
     sabotaged(&[mutation], |_| level(5.0, Spacing::Equal), |report| report.split_normals > 0 && report.open == 0);
 }
@@ -233,11 +243,13 @@ fn the_reference_cages_are_watertight() {
     let mut checked = 0;
     for file in zoo::reference_cages(&reference_folder()) {
         let Ok(cage) = Cage::read(&file) else { continue };
-        let Some(surface) = surface(&gpu, &cage, None) else { continue };
-        for tessellation in [level(3.0, Spacing::Equal), level(2.6, Spacing::Odd)] {
-            assert_watertight(&file.display().to_string(), &surface, &tessellation);
+        for &scheme in Scheme::ALL {
+            let Some(surface) = surface_of(&gpu, &cage, scheme, None) else { continue };
+            for tessellation in [level(3.0, Spacing::Equal), level(2.6, Spacing::Odd)] {
+                assert_watertight(&format!("{}, {scheme}", file.display()), &surface, &tessellation);
+            }
+            checked += 1;
         }
-        checked += 1;
     }
-    assert!(checked > 40, "only {checked} cages were found");
+    assert!(checked > 40 * Scheme::ALL.len(), "only {checked} cages were found");
 }

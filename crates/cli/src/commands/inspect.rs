@@ -4,7 +4,7 @@ use crate::failure::{Failure, Verdict};
 use crate::input::{InputArgs, boundary_name};
 use crate::stdout;
 use clap::Args;
-use osculate::{PatchKind, Scheme, SurfacePlan};
+use osculate::{PatchKind, PlanError, Scheme, SurfacePlan};
 use osculate_cage::{BoundaryRule, Cage, Inspection, inspect};
 use osculate_subdiv::PlanDesc;
 use serde::Serialize;
@@ -83,17 +83,15 @@ pub(crate) fn run(job: &Job) -> Result<Verdict, Failure> {
 
 impl Findings {
     fn new(cage: &Cage, boundary: BoundaryRule) -> Self {
-        let plan = SurfacePlan::build(cage, &PlanDesc { boundary: Some(boundary) });
-        let not_drawn = plan.as_ref().err().map(ToString::to_string);
-        // The schemes of this build differ in their formulas, not in their patches.
-        let schemes =
-            plan.map(|plan| Scheme::ALL.iter().map(|scheme| (scheme.name(), SchemePlan::new(&plan))).collect());
-        Self {
-            cage: inspect(cage),
-            boundary_rule: boundary_name(boundary),
-            schemes: schemes.unwrap_or_default(),
-            not_drawn,
-        }
+        let plan = |&scheme: &Scheme| {
+            let plan = SurfacePlan::build(cage, &PlanDesc { boundary: Some(boundary), scheme })?;
+            Ok((scheme.name(), SchemePlan::new(&plan)))
+        };
+        let (schemes, not_drawn) = match Scheme::ALL.iter().map(plan).collect::<Result<_, PlanError>>() {
+            Ok(schemes) => (schemes, None),
+            Err(error) => (BTreeMap::new(), Some(error.to_string())),
+        };
+        Self { cage: inspect(cage), boundary_rule: boundary_name(boundary), schemes, not_drawn }
     }
 
     fn text(&self) -> String {
@@ -163,8 +161,8 @@ impl SchemePlan {
 fn kind_name(kind: PatchKind) -> String {
     match kind {
         PatchKind::Regular => "regular".into(),
-        PatchKind::Extraordinary { valence } => format!("valence_{valence}"),
-        PatchKind::Coefficients => "coefficients".into(),
+        PatchKind::Extraordinary { form, valence } => format!("{}_valence_{valence}", form.name()),
+        PatchKind::Stored { form } => format!("{}_stored", form.name()),
     }
 }
 

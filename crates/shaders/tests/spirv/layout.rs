@@ -5,7 +5,7 @@ use crate::module::SpirvModule;
 use osculate_shader_compiler::{CompileDesc, compile};
 use osculate_shaders::layout::{LAYOUTS, StructLayout};
 use osculate_shaders::{SHADERS, constant};
-use osculate_subdiv::{PatchKind, PatchRecord};
+use osculate_subdiv::{PatchForm, PatchRecord};
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Op};
 use std::collections::{BTreeMap, BTreeSet};
@@ -71,10 +71,11 @@ fn shared_structs_have_distinct_names() {
 
 #[test]
 fn tags_of_patches_have_the_same_bits_on_both_sides() {
-    let kinds = [PatchKind::Regular, PatchKind::Extraordinary { valence: 5 }, PatchKind::Coefficients];
-    let numbers = [constant::KIND_REGULAR, constant::KIND_EXTRAORDINARY, constant::KIND_COEFFICIENTS];
-    assert_eq!(kinds.map(PatchKind::number), numbers);
-    assert_eq!(PatchRecord::KIND_MASK, constant::KIND_MASK);
+    let forms = [PatchForm::Bicubic, PatchForm::Gregory, PatchForm::Stam, PatchForm::Biseptic];
+    let numbers = [constant::FORM_BICUBIC, constant::FORM_GREGORY, constant::FORM_STAM, constant::FORM_BISEPTIC];
+    assert_eq!(forms.map(PatchForm::number), numbers);
+    assert_eq!(PatchRecord::FORM_MASK, constant::FORM_MASK);
+    assert_eq!(PatchRecord::STORED, constant::TAG_STORED);
     assert_eq!(PatchRecord::BOUNDARY, constant::TAG_BOUNDARY);
     assert_eq!(PatchRecord::VALENCE_SHIFT, constant::TAG_VALENCE_SHIFT);
 }

@@ -13,7 +13,7 @@ const EXEMPT_PREFIX: &str = "shade_";
 
 /// Folder and extension of the stages that compute geometry.
 const GEOMETRY: [(&str, &str); 5] =
-    [("patch/", ".tesc"), ("patch/", ".tese"), ("evaluate/", ".comp"), ("records/", ".comp"), ("subdivide/", ".comp")];
+    [("patch/", ".tesc"), ("patch/", ".tese"), ("sample/", ".comp"), ("records/", ".comp"), ("subdivide/", ".comp")];
 
 #[test]
 fn geometry_is_precise() {

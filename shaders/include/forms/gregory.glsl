@@ -1,8 +1,9 @@
 // Bicubic Gregory patches: 20 points, corner i has p, e+, e-, f+, f- at 5 i .. 5 i + 4 (Loop, Schaefer, Ni, Castano 2009; report, section 4.4).
 // Derivation and tests: osculate_surface::gregory.
-#ifndef GREGORY_GLSL
-#define GREGORY_GLSL
-#include "bezier.glsl"
+#ifndef FORMS_GREGORY_GLSL
+#define FORMS_GREGORY_GLSL
+#include "forms/form.glsl"
+#include "curvature.glsl"
 
 // The interior point between f+ and f-, which each rule on their own edge. At the corner itself the quotient is 0/0; its Bernstein
 // weight is zero there, so any finite value serves.
@@ -13,7 +14,11 @@ vec3 gregory_blend(vec3 plus, vec3 minus, float weight_plus, float weight_minus)
 }
 
 // The bicubic Bezier points that stand for the Gregory patch at (u,v). Differentiating them as constants is exact on all four edges.
-void gregory_bezier(vec3 g[GREGORY_POINTS], vec2 uv, out vec3 b[16]) {
+void gregory_bezier(vec2 uv, out vec3 b[16]) {
+    vec3 g[GREGORY_POINTS];
+    for (uint i = 0u; i < GREGORY_POINTS; ++i) {
+        g[i] = control(i);
+    }
     float u = uv.x;
     float v = uv.y;
     precise float u1 = 1.0 - u;
@@ -34,6 +39,23 @@ void gregory_bezier(vec3 g[GREGORY_POINTS], vec2 uv, out vec3 b[16]) {
     b[13] = g[17];
     b[14] = g[11];
     b[15] = g[10];
+}
+
+InnerPoint inner_point(uint id, vec2 uv) {
+    vec3 b[16];
+    gregory_bezier(uv, b);
+    PatchPoint p = bicubic_point(b, uv);
+    return InnerPoint(p.position, p.du, p.dv, cross_product(p.du, p.dv));
+}
+
+vec2 shade_curvature(uint id, vec2 uv) {
+    vec3 b[16];
+    gregory_bezier(uv, b);
+    return shade_bicubic_curvature(b, uv);
+}
+
+SurfacePoint side_point(uint id, uint side, vec2 uv) {
+    return cubic_side_point(id, side, uv);
 }
 
 #endif

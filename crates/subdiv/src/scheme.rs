@@ -1,6 +1,9 @@
-//! The surface schemes of this build.
+//! The surface schemes.
 
 use std::{fmt, str::FromStr};
+
+use crate::PatchForm;
+use crate::patches::LIST_VALENCES;
 
 /// How patches next to extraordinary vertices are shaped. Regular patches are bicubic in every scheme.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -9,16 +12,38 @@ pub enum Scheme {
     /// Gregory patches after the isolating refinement steps: tangent plane continuous (report, section 4.4).
     #[default]
     Gregory2,
+    /// The exact limit surface, in the eigenbasis of subdivision (report, section 4.2).
+    Stam,
+    /// Patches of bidegree 7 with continuous curvature (report, section 4.3); [`Self::Stam`] patches at boundaries and outside valence 3 to 12.
+    Biseptic,
 }
 
 impl Scheme {
     /// All schemes of this build.
-    pub const ALL: &'static [Self] = &[Self::Gregory2];
+    pub const ALL: &'static [Self] = &[Self::Gregory2, Self::Stam, Self::Biseptic];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Gregory2 => "gregory2",
+            Self::Stam => "stam",
+            Self::Biseptic => "biseptic",
+        }
+    }
+
+    /// The formula of patches at an inner vertex of that valence.
+    pub(crate) fn interior_form(self, valence: u32) -> PatchForm {
+        match self {
+            Self::Biseptic if LIST_VALENCES.contains(&valence) => PatchForm::Biseptic,
+            _ => self.boundary_form(),
+        }
+    }
+
+    /// The formula of extraordinary patches at the boundary.
+    pub(crate) fn boundary_form(self) -> PatchForm {
+        match self {
+            Self::Gregory2 => PatchForm::Gregory,
+            Self::Stam | Self::Biseptic => PatchForm::Stam,
         }
     }
 }

@@ -2,13 +2,13 @@
 #extension GL_GOOGLE_include_directive : require
 // Gregory patches whose points lie in the coefficient buffer.
 #include "evaluation_stage.glsl"
-#include "gregory.glsl"
+#include "forms/gregory.glsl"
 #include "coefficients.glsl"
 
+vec3 control(uint i) {
+    return stored_vector(patches[patch_id].net + i);
+}
+
 void main() {
-    vec3 g[GREGORY_POINTS];
-    load_coefficients(patches[patch_id].basis, g);
-    vec3 b[16];
-    gregory_bezier(g, gl_TessCoord.xy, b);
-    write_vertex(b);
+    write_vertex();
 }

@@ -1,0 +1,51 @@
+// What every form of patch defines, for the stage that evaluates it, and what it asks of the stage.
+#ifndef FORM_GLSL
+#define FORM_GLSL
+#include "records.glsl"
+
+// A point of a patch away from its sides.
+struct InnerPoint {
+    vec3 position;
+    // Partial derivatives.
+    vec3 du;
+    vec3 dv;
+    // Along du x dv, of any length.
+    vec3 plane;
+};
+
+// From the stage: control point i of the patch at hand, in the form's own basis.
+vec3 control(uint i);
+
+// From the form: its formula at (u,v) of patch `id`.
+InnerPoint inner_point(uint id, vec2 uv);
+// From the form: (mean, Gaussian) curvature there, zero where the patch has no tangent plane. For shading alone: no bits are promised.
+vec2 shade_curvature(uint id, vec2 uv);
+// From the form: the shared point at (u,v) on a side of the patch, corners excepted.
+SurfacePoint side_point(uint id, uint side, vec2 uv);
+
+// The shared point at (u,v), if (u,v) is on an edge or a corner of the patch.
+bool shared_point(uint id, vec2 uv, out SurfacePoint point) {
+    uint side = side_of(uv);
+    if (side == 4u) {
+        return false;
+    }
+    bool corner = (uv.x == 0.0 || uv.x == 1.0) && (uv.y == 0.0 || uv.y == 1.0);
+    if (corner) {
+        uint k = uv.y == 0.0 ? (uv.x == 0.0 ? 0u : 1u) : (uv.x == 0.0 ? 3u : 2u);
+        point = vertex_record_point(patches[id].vertex[k]);
+    } else {
+        point = side_point(id, side, uv);
+    }
+    return true;
+}
+
+// The point at (u,v): shared where it lies on an edge or corner, from the patch's own evaluation elsewhere.
+SurfacePoint surface_point(uint id, vec2 uv, InnerPoint inner) {
+    SurfacePoint point;
+    if (!shared_point(id, uv, point)) {
+        point = SurfacePoint(inner.position, unit_or_zero(inner.plane));
+    }
+    return point;
+}
+
+#endif
