@@ -45,6 +45,7 @@ impl Surface {
         let segments = tessellation.max_segments()?;
         let device = self.engine().device();
         self.require_capture()?;
+        self.engine().prepare([], self.pipelines(tessellation.spacing, Output::Capture))?;
         let frame = FrameDesc {
             radius: self.radius(),
             space: self.space(),

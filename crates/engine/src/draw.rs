@@ -83,7 +83,7 @@ fn make_patches(
         Output::Lines(_) => Some(engine.shader("shade/wire.frag")?),
         Output::Capture => None,
     };
-    let name = format!("{kind:?}, {output:?}");
+    let name = patches_name(kind, spacing, output);
     let specialization = [(constant::SPEC_NET_SIZE, patch_points(kind))];
     let desc = GraphicsPipelineDesc {
         tessellation: Some(Stages { control: &control, evaluation: &evaluation, patch_points: patch_points(kind) }),
@@ -93,6 +93,23 @@ fn make_patches(
         ..GraphicsPipelineDesc::new(&name, &vertex)
     };
     Ok(engine.device().graphics_pipeline(&with_output(desc, output))?)
+}
+
+/// What tools call the pipeline of patches.
+fn patches_name(kind: PatchKind, spacing: Spacing, output: Output) -> String {
+    let form = kind.form().name();
+    let patches = match kind {
+        PatchKind::Regular => form.to_owned(),
+        PatchKind::Extraordinary { valence, .. } => format!("{form} valence {valence}"),
+        PatchKind::Stored { .. } => format!("{form} stored"),
+    };
+    let target = |Target { color, samples }| format!("{color:?} x{samples}");
+    let output = match output {
+        Output::Fill(to) => format!("fill {}", target(to)),
+        Output::Lines(to) => format!("lines {}", target(to)),
+        Output::Capture => "capture".to_owned(),
+    };
+    format!("{patches}, {}, {output}", spacing.variant())
 }
 
 fn with_output<'a>(desc: GraphicsPipelineDesc<'a>, output: Output) -> GraphicsPipelineDesc<'a> {
@@ -132,7 +149,7 @@ fn make_cage(engine: &Engine, target: Target, hidden: bool) -> Result<GraphicsPi
         color_format: Some(target.color),
         depth_format: Some(DEPTH_FORMAT),
         samples: target.samples,
-        ..GraphicsPipelineDesc::new("cage overlay", &vertex)
+        ..GraphicsPipelineDesc::new(if hidden { "cage overlay, hidden too" } else { "cage overlay" }, &vertex)
     };
     Ok(engine.device().graphics_pipeline(&desc)?)
 }
@@ -158,6 +175,11 @@ pub(crate) fn runs(lists: &[PatchList], longest: u32) -> impl Iterator<Item = Ru
 }
 
 impl Surface {
+    /// The pipelines that its patches need, one for each kind present.
+    pub(crate) fn pipelines(&self, spacing: Spacing, output: Output) -> impl Iterator<Item = PipelineKey> {
+        self.plan().lists.iter().map(move |list| PipelineKey::Patches { kind: list.kind, spacing, output })
+    }
+
     /// The draw of a run of patches; `bindings` are those of the surface and the frame.
     pub(crate) fn draw(
         &self,
@@ -188,6 +210,18 @@ impl Surface {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_tell_pipelines_of_patches_apart() {
+        let target = Target { color: Format::Rgba8Srgb, samples: 4 };
+        let stam = PatchKind::Extraordinary { form: PatchForm::Stam, valence: 7 };
+        assert_eq!(
+            patches_name(stam, Spacing::Equal, Output::Fill(target)),
+            "stam valence 7, equal, fill Rgba8Srgb x4"
+        );
+        let stored = PatchKind::Stored { form: PatchForm::Gregory };
+        assert_eq!(patches_name(stored, Spacing::Odd, Output::Capture), "gregory stored, odd, capture");
+    }
 
     #[test]
     fn runs_cover_every_patch_once() {

@@ -83,7 +83,6 @@ enum Need {
     Drawing(PipelineKey),
 }
 
-#[cfg_attr(not(test), expect(dead_code, reason = "surfaces and pictures call it next"))]
 impl Engine {
     /// Makes those of the pipelines that are still missing, on all threads of the machine, and tells the engine's observer.
     ///
@@ -139,20 +138,24 @@ impl Engine {
         self.pipelines().kernels.get_or_make(name, || {
             let shader = self.shader(name)?;
             let desc = ComputePipelineDesc { name, shader: &shader, specialization: &[] };
-            self.timed(name, || Ok(self.device().compute_pipeline(&desc)?))
+            self.timed(|| Ok(self.device().compute_pipeline(&desc)?), ComputePipeline::name)
         })
     }
 
     /// The graphics pipeline of that key.
     pub(crate) fn pipeline(&self, key: PipelineKey) -> Result<GraphicsPipeline, EngineError> {
-        self.pipelines().drawing.get_or_make(key, || self.timed(&format!("{key:?}"), || key.make(self)))
+        self.pipelines().drawing.get_or_make(key, || self.timed(|| key.make(self), GraphicsPipeline::name))
     }
 
     /// Makes a pipeline and says how long it took.
-    fn timed<P>(&self, name: &str, make: impl FnOnce() -> Result<P, EngineError>) -> Result<P, EngineError> {
+    fn timed<P>(
+        &self,
+        make: impl FnOnce() -> Result<P, EngineError>,
+        name: impl FnOnce(&P) -> &str,
+    ) -> Result<P, EngineError> {
         let start = Instant::now();
         let made = make()?;
-        tracing::debug!("pipeline {name}: {:.1} ms", 1e3 * start.elapsed().as_secs_f64());
+        tracing::debug!("pipeline {:?}: {:.1} ms", name(&made), 1e3 * start.elapsed().as_secs_f64());
         self.pipelines().unsaved.store(true, Ordering::Relaxed);
         Ok(made)
     }
@@ -179,7 +182,7 @@ impl Engine {
 mod tests {
     use super::*;
     use crate::draw::Target;
-    use crate::{DeviceDesc, EngineDesc};
+    use crate::{DeviceDesc, EngineDesc, RenderDesc, Scheme, Surface, SurfaceDesc, Tessellation, render};
     use osculate_gpu::Format;
     use std::fs;
     use std::path::Path;
@@ -245,6 +248,30 @@ mod tests {
         assert!(matches!(&error, EngineError::MissingShader { name } if name == "no/such.comp"), "{error}");
         assert_eq!(told.lock().unwrap().last(), Some(&PipelineProgress { done: 1, total: 2 }));
         assert_eq!(engine.pipeline_names(), ["subdivide/edge.comp"]);
+    }
+
+    /// All patches of a cube have a corner of valence 3.
+    #[test]
+    fn pictures_and_captures_make_the_pipelines_of_patches_that_are_there() {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/cages/cube.obj");
+        let cage = crate::Cage::read(&file).unwrap();
+        for &scheme in Scheme::ALL {
+            let engine = Engine::new(device());
+            let surface = Surface::new(&engine, &cage, &SurfaceDesc { scheme, ..SurfaceDesc::default() }).unwrap();
+            let kernels = engine.pipeline_names();
+            assert!(kernels.iter().all(|name| name.ends_with(".comp")), "{kernels:?}");
+            render(&engine, &[&surface], &RenderDesc { cage: true, ..RenderDesc::fit(&cage, [8, 8]) }).unwrap();
+            surface.capture(&Tessellation::uniform(1.0), |_| Ok::<(), EngineError>(())).unwrap();
+            let mut drawing = engine.pipeline_names();
+            drawing.retain(|name| !kernels.contains(name));
+            let form = surface.plan().lists[0].kind.form().name();
+            let of_valence_3 = |output| format!("{form} valence 3, equal, {output}");
+            let cage = ["cage overlay".to_owned(), "cage overlay, hidden too".to_owned()];
+            let mut expected = [&cage[..], &[of_valence_3("capture"), of_valence_3("fill Rgba8Srgb x4")]].concat();
+            expected.sort_unstable();
+            assert_eq!(drawing, expected, "{scheme}");
+            assert_eq!(engine.device().validation_messages(), [""; 0]);
+        }
     }
 
     #[test]

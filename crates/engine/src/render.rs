@@ -134,7 +134,9 @@ pub struct Picture {
 /// # Errors
 /// If the level is out of range, the picture has no pixels, it or the number of samples exceeds what the device can do, or the device fails.
 pub fn render(engine: &Engine, surfaces: &[&Surface], desc: &RenderDesc) -> Result<Picture, EngineError> {
+    check_wireframe(engine, desc.shade)?;
     let targets = Targets::new(engine, desc)?;
+    engine.prepare([], surfaces.iter().flat_map(|surface| pipelines(surface, desc, targets.target)))?;
     let mut draws = Vec::new();
     for surface in surfaces {
         add_surface(surface, desc, targets.target, &mut draws)?;
@@ -154,16 +156,21 @@ pub fn render(engine: &Engine, surfaces: &[&Surface], desc: &RenderDesc) -> Resu
     Ok(Picture { size: desc.size, rgba })
 }
 
+/// What becomes of the patches in a picture.
+fn outputs(desc: &RenderDesc, target: Target) -> impl Iterator<Item = Output> {
+    let lines = (desc.shade == Shade::Wireframe).then_some(Output::Lines(target));
+    std::iter::once(Output::Fill(target)).chain(lines)
+}
+
+/// All pipelines that a surface is drawn with.
+fn pipelines(surface: &Surface, desc: &RenderDesc, target: Target) -> impl Iterator<Item = PipelineKey> {
+    let patches = outputs(desc, target).flat_map(|output| surface.pipelines(desc.tessellation.spacing, output));
+    let cage = desc.cage.then_some([false, true].map(|hidden| PipelineKey::Cage { target, hidden }));
+    patches.chain(cage.into_iter().flatten())
+}
+
 fn add_surface(surface: &Surface, desc: &RenderDesc, target: Target, draws: &mut Vec<Draw>) -> Result<(), EngineError> {
-    let wire = desc.shade == Shade::Wireframe;
     let device = surface.engine().device();
-    if wire && !device.info().features.wireframe {
-        return Err(EngineError::Unsupported {
-            device: device.info().name.clone(),
-            what: "draw the edges of triangles".to_owned(),
-            hint: "choose another shade".to_owned(),
-        });
-    }
     let frame = |line_color| FrameDesc {
         space: surface.space(),
         radius: surface.radius(),
@@ -174,8 +181,7 @@ fn add_surface(surface: &Surface, desc: &RenderDesc, target: Target, draws: &mut
     };
     let bindings = surface.buffers().patches.clone().with(binding::FRAME, &frame(WIRE).upload(device)?);
     let longest = surface.engine().patches_per_draw(desc.tessellation.max_segments()?);
-    let outputs = [Some(Output::Fill(target)), wire.then_some(Output::Lines(target))];
-    for output in outputs.into_iter().flatten() {
+    for output in outputs(desc, target) {
         for run in runs(&surface.plan().lists, longest) {
             draws.push(surface.draw(run, &bindings, &desc.tessellation, output)?);
         }
@@ -194,6 +200,18 @@ fn add_surface(surface: &Surface, desc: &RenderDesc, target: Target, draws: &mut
         }
     }
     Ok(())
+}
+
+fn check_wireframe(engine: &Engine, shade: Shade) -> Result<(), EngineError> {
+    let info = engine.device().info();
+    if shade != Shade::Wireframe || info.features.wireframe {
+        return Ok(());
+    }
+    Err(EngineError::Unsupported {
+        device: info.name.clone(),
+        what: "draw the edges of triangles".to_owned(),
+        hint: "choose another shade".to_owned(),
+    })
 }
 
 fn check_size(engine: &Engine, [width, height]: [u32; 2]) -> Result<(), EngineError> {

@@ -92,6 +92,7 @@ impl Surface {
         let mut values = vec![0.0; requests.len() * SAMPLE];
         let form = |request: &SampleRequest| self.plan().patches[request.patch_id as usize].kind().form();
         let forms: BTreeSet<PatchForm> = requests.iter().map(form).collect();
+        self.engine().prepare(forms.iter().map(|&form| kernel(form)), [])?;
         for kind in forms {
             let (at, of_form): (Vec<usize>, Vec<SampleRequest>) =
                 requests.iter().copied().enumerate().filter(|(_, request)| form(request) == kind).unzip();

@@ -93,12 +93,37 @@ impl Surface {
     pub fn record_update(&self, recording: &mut Recording) -> Result<(), EngineError> {
         let (plan, buffers) = (&self.plan, &self.buffers);
         recording.copy_buffer(&buffers.staging, 0..buffers.staging.size(), &buffers.points, 0);
-        for level in 0..plan.levels.len() {
-            self.record_level(level, recording)?;
-        }
+        let mut kernels: Vec<Kernel<'_>> = (0..plan.levels.len()).flat_map(|level| self.level_kernels(level)).collect();
+        kernels.extend(self.record_kernels());
+        kernels.retain(|kernel| kernel.threads > 0);
+        self.engine.prepare(kernels.iter().map(|kernel| kernel.shader), [])?;
+        kernels.into_iter().try_for_each(|kernel| kernel.record(&self.engine, recording))
+    }
+
+    /// The three kernels of a refinement step. Faces run through their own kernel or, all being quads, through that of edges.
+    fn level_kernels(&self, level: usize) -> [Kernel<'_>; 3] {
+        let (tables, buffers) = (&self.plan.levels[level], &self.buffers.levels[level]);
+        let (faces, edges, vertices) =
+            (tables.face_count() as u32, tables.edge_count() as u32, tables.vertex_count() as u32);
+        let face_shader = if tables.quads { "subdivide/edge.comp" } else { "subdivide/face.comp" };
+        let first_edge = tables.first_new + faces;
+        [
+            (face_shader, &buffers.face, faces, tables.first_new),
+            ("subdivide/edge.comp", &buffers.edge, edges, first_edge),
+            ("subdivide/vertex.comp", &buffers.vertex, vertices, first_edge + edges),
+        ]
+        .map(|(shader, bindings, count, first)| {
+            let push = KernelPush { count, first, old_distance: tables.old_distance() };
+            Kernel { shader, bindings, push, threads: count }
+        })
+    }
+
+    /// The kernels of what is made from the points of the last level.
+    fn record_kernels(&self) -> [Kernel<'_>; 6] {
+        let (plan, buffers) = (&self.plan, &self.buffers);
         let (vertices, edges) = (&plan.vertex_records, &plan.edge_records);
         let per_element = |shader, bindings, count: usize, first: u32| (shader, bindings, count as u32, first, 1);
-        let kernels = [
+        [
             per_element("records/phantom.comp", &buffers.phantom, plan.reflections.len(), plan.first_phantom),
             per_element("records/vertex_regular.comp", &buffers.vertex_regular, vertices.regular.len(), 0),
             per_element(
@@ -117,30 +142,11 @@ impl Surface {
                 EDGE_RECORD_POINTS,
             ),
             per_element("records/coefficients.comp", &buffers.projections, plan.vector_count as usize, 0),
-        ];
-        for (shader, bindings, count, first, threads_each) in kernels {
+        ]
+        .map(|(shader, bindings, count, first, threads_each)| {
             let push = KernelPush { count, first, old_distance: 0 };
-            Kernel { shader, bindings, push, threads: count * threads_each }.record(&self.engine, recording)?;
-        }
-        Ok(())
-    }
-
-    /// The three kernels of a refinement step. Faces run through their own kernel or, all being quads, through that of edges.
-    fn record_level(&self, level: usize, recording: &mut Recording) -> Result<(), EngineError> {
-        let (tables, buffers) = (&self.plan.levels[level], &self.buffers.levels[level]);
-        let (faces, edges, vertices) =
-            (tables.face_count() as u32, tables.edge_count() as u32, tables.vertex_count() as u32);
-        let face_shader = if tables.quads { "subdivide/edge.comp" } else { "subdivide/face.comp" };
-        let first_edge = tables.first_new + faces;
-        for (shader, bindings, count, first) in [
-            (face_shader, &buffers.face, faces, tables.first_new),
-            ("subdivide/edge.comp", &buffers.edge, edges, first_edge),
-            ("subdivide/vertex.comp", &buffers.vertex, vertices, first_edge + edges),
-        ] {
-            let push = KernelPush { count, first, old_distance: tables.old_distance() };
-            Kernel { shader, bindings, push, threads: count }.record(&self.engine, recording)?;
-        }
-        Ok(())
+            Kernel { shader, bindings, push, threads: count * threads_each }
+        })
     }
 
     /// The engine it lives on.
