@@ -7,7 +7,7 @@ use clap::Args;
 use osculate::{PatchKind, PlanError, Scheme, SurfacePlan};
 use osculate_cage::{BoundaryRule, Cage, Inspection, inspect};
 use osculate_subdiv::PlanDesc;
-use serde::Serialize;
+use serde::{Serialize, Serializer};
 use std::collections::BTreeMap;
 use std::fmt::{Display, Write};
 
@@ -64,7 +64,9 @@ struct Findings {
 #[derive(Serialize)]
 struct SchemePlan {
     patches: usize,
-    by_kind: BTreeMap<String, u64>,
+    /// In the order of the lists: by valence.
+    #[serde(serialize_with = "as_map")]
+    by_kind: Vec<(String, u32)>,
     steps: u32,
     bytes: usize,
 }
@@ -150,12 +152,13 @@ fn histogram(counts: &BTreeMap<u32, usize>) -> String {
 
 impl SchemePlan {
     fn new(plan: &SurfacePlan) -> Self {
-        let mut by_kind = BTreeMap::new();
-        for list in &plan.lists {
-            *by_kind.entry(kind_name(list.kind)).or_default() += u64::from(list.count);
-        }
+        let by_kind = plan.lists.iter().map(|list| (kind_name(list.kind), list.count)).collect();
         Self { patches: plan.patches.len(), by_kind, steps: plan.steps(), bytes: plan.bytes() }
     }
+}
+
+fn as_map<S: Serializer>(pairs: &[(String, u32)], serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.collect_map(pairs.iter().map(|(name, count)| (name, count)))
 }
 
 fn kind_name(kind: PatchKind) -> String {

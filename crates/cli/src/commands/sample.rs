@@ -25,7 +25,7 @@ use std::path::{Path, PathBuf};
 /// face, (0,1) the middle of the edge to the previous vertex. Faces count from 0 in file order.
 ///
 /// ev = 1: corner on an irregular vertex; do not use du, dv there. Positions and normals at vertices are exact for every
-/// scheme; between them gregory2 approximates next to irregular vertices.
+/// scheme; between them stam is exact everywhere, the others approximate next to irregular vertices.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct SampleArgs {

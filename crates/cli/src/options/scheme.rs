@@ -41,13 +41,8 @@ impl SchemeName {
 
     /// The scheme, if this build draws it.
     pub(crate) fn in_this_build(self) -> Result<Scheme, Failure> {
-        self.name().parse().map_err(|unknown| {
-            let failure = Failure::usage(unknown);
-            match self {
-                Self::Stam => failure.with_hint("sample --evaluator reference evaluates stam, the exact limit surface"),
-                _ => failure.with_hint("leave --scheme away for the default, gregory2"),
-            }
-        })
+        let hint = "leave --scheme away for the default, gregory2";
+        self.name().parse().map_err(|unknown| Failure::usage(unknown).with_hint(hint))
     }
 }
 
