@@ -3,9 +3,11 @@
 //! Tests that draw take [`gpu()`], whose guard fails the test if validation said anything. Tests that compare with data from elsewhere take
 //! [`reference_folder`] and are ignored by default.
 
+pub mod exact;
 pub mod legend;
 pub mod mutation;
 pub mod picture;
+pub mod stars;
 pub mod zoo;
 
 use std::path::PathBuf;
@@ -15,6 +17,7 @@ use osculate::{
     BoundaryRule, Cage, Device, DeviceDesc, Engine, EngineDesc, EngineError, PlanError, Scheme, ShaderSet, Surface,
     SurfaceDesc,
 };
+use osculate_cage::NONE;
 
 /// The engine that tests share, so that pipelines are compiled once; checks validation when dropped.
 pub struct Gpu {
@@ -62,6 +65,13 @@ pub fn surface_of(engine: &Engine, cage: &Cage, scheme: Scheme, boundary: Option
 
 /// All boundary rules.
 pub const RULES: [BoundaryRule; 3] = [BoundaryRule::EdgeAndCorner, BoundaryRule::EdgeOnly, BoundaryRule::None];
+
+/// The boundary rules under which a cage's surfaces differ: one if it has no boundary.
+pub fn rules_of(cage: &Cage) -> &'static [BoundaryRule] {
+    let topology = cage.topology();
+    let is_open = topology.edge_half_edges().iter().any(|&h| topology.twin(h) == NONE);
+    if is_open { &RULES } else { &RULES[..1] }
+}
 
 fn device() -> Device {
     let desc = DeviceDesc {

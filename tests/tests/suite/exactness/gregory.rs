@@ -1,0 +1,46 @@
+//! Gregory patches as the device has them: one tangent plane on both sides of every edge, corners on the limit surface.
+
+use osculate::Scheme;
+use osculate_subdiv::PatchForm;
+use osculate_surface::reference::{Boundary, Mesh, Reference};
+use osculate_tests::exact::{compare, requests};
+use osculate_tests::zoo::Specimen;
+use osculate_tests::{gpu, rules_of, surface_of, zoo};
+
+use super::judge::Judge;
+use super::sides::assert_same_normals;
+
+#[test]
+fn tangent_planes_agree_across_every_edge() {
+    let gpu = gpu();
+    let mut compared = 0;
+    for Specimen { name, cage } in zoo::all() {
+        for &rule in rules_of(&cage) {
+            let Some(surface) = surface_of(&gpu, &cage, Scheme::Gregory2, Some(rule)) else { continue };
+            compared += assert_same_normals(&format!("{name}, {rule:?}"), &cage, &surface, PatchForm::Gregory);
+        }
+    }
+    assert!(compared > 50_000, "only {compared} points compared");
+}
+
+#[test]
+fn corners_are_on_the_limit_surface() {
+    let gpu = gpu();
+    let mut compared = 0;
+    for Specimen { name, cage } in zoo::all() {
+        for &rule in rules_of(&cage) {
+            let Some(surface) = surface_of(&gpu, &cage, Scheme::Gregory2, Some(rule)) else { continue };
+            let mesh = Mesh::from(&cage);
+            let exact = Reference::new(&mesh, Boundary::from(rule)).unwrap();
+            let judge = Judge::new(format!("{name}, {rule:?}"), &cage, &surface, &exact);
+            for (id, _) in (0..).zip(&surface.plan().patches).filter(|(_, record)| record.is_extraordinary()) {
+                let face_size = judge.face_size(id);
+                for pair in compare(&surface, &exact, &requests(&[id], &[0.0, 1.0])) {
+                    judge.assert_same(&pair, face_size);
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 10_000, "only {compared} corners compared");
+}

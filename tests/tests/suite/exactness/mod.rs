@@ -1,0 +1,7 @@
+//! How near the schemes come to the limit surface, and to what each of them promises.
+
+mod biseptic;
+mod gregory;
+mod judge;
+mod sides;
+mod stam;
