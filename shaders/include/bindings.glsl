@@ -16,5 +16,6 @@
 #define BINDING_REQUESTS 11
 #define BINDING_SAMPLES 12
 #define BINDING_SPOKES 13
+#define BINDING_FANS 14
 
 #endif

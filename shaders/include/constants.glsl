@@ -12,6 +12,7 @@
 #define EDGE_RECORD_POINTS 8
 #define EDGE_RECORD_FLOATS 24
 #define GREGORY_POINTS 20
+#define TRIANGLE_POINTS 15
 #define SAMPLE_FLOATS 12
 
 // PatchRecord.tag: the formula (bits 0..2), whether control points are stored (bit 3), boundary flag (bit 4), valence of corner 0 (from bit 8).
@@ -19,10 +20,16 @@
 #define FORM_GREGORY 1
 #define FORM_STAM 2
 #define FORM_BISEPTIC 3
+#define FORM_TRIANGLE 4
 #define FORM_MASK 7
 #define TAG_STORED 8
 #define TAG_BOUNDARY 16
 #define TAG_VALENCE_SHIFT 8
+
+// FanRecord.cross_end (osculate_surface::gregory::CrossEnd)
+#define CROSS_END_PLAIN 0
+#define CROSS_END_VANISHING 1
+#define CROSS_END_OPPOSED 2
 
 // Frame.factor_mode
 #define FACTORS_UNIFORM 0

@@ -1,12 +1,16 @@
-// Interface of the tessellation evaluation stages: a stage includes this, its form, and says where control points come from. SPACING is the layout's spacing; with CAPTURE the outputs go to transform feedback.
+// Interface of the tessellation evaluation stages: a stage includes this, its form, and says where control points come from. SPACING is the layout's spacing, DOMAIN its domain if not quads; with CAPTURE the outputs go to transform feedback.
 #ifndef EVALUATION_STAGE_GLSL
 #define EVALUATION_STAGE_GLSL
 #include "frame.glsl"
 #include "forms/form.glsl"
 #include "measure.glsl"
 
+#ifndef DOMAIN
+#define DOMAIN quads
+#endif
+
 // Vulkan looks at the domain with v pointing down, so what it calls clockwise is counter-clockwise in (u,v).
-layout(quads, SPACING, cw) in;
+layout(DOMAIN, SPACING, cw) in;
 
 layout(location = 1) patch in uint patch_id;
 

@@ -39,4 +39,17 @@ void write_factors(uint patch_id) {
     gl_TessLevelInner[1] = max(f1, f3);
 }
 
+// The same for a triangle: outer levels are those of u=0, v=0, w=0.
+void write_triangle_factors(uint patch_id) {
+    float side0 = edge_factor(patches[patch_id].edge[0] >> 1u);
+    float side1 = edge_factor(patches[patch_id].edge[1] >> 1u);
+    float side2 = edge_factor(patches[patch_id].edge[2] >> 1u);
+    gl_TessLevelOuter[0] = side2;
+    gl_TessLevelOuter[1] = side0;
+    gl_TessLevelOuter[2] = side1;
+    gl_TessLevelInner[0] = max(max(side0, side1), side2);
+    // Wireframes are drawn as fine along u as along v.
+    gl_TessLevelInner[1] = gl_TessLevelInner[0];
+}
+
 #endif

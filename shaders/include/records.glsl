@@ -54,24 +54,4 @@ SurfacePoint edge_record_at(uint edge, float t) {
     return SurfacePoint(combine4(b, c0, c1, c2, c3), unit_or_zero(cross_product(tangent, cross_field)));
 }
 
-// The side of the unit square that (u,v) lies on, 0..3 as v=0, u=1, v=1, u=0, or 4 inside. Comparing with 0 and 1 is exact: the
-// tessellator gives exactly these on outer edges.
-uint side_of(vec2 uv) {
-    return uv.y == 0.0 ? 0u : uv.x == 1.0 ? 1u : uv.y == 1.0 ? 2u : uv.x == 0.0 ? 3u : 4u;
-}
-
-// Edge record parameter of coordinate x of a side: u on sides 0 and 2, v on sides 1 and 3. Sides 2 and 3 are walked against x, the
-// flip bit walks once more; 1 - x is exact for tessellation coordinates, and is taken at most once.
-float edge_parameter(uint side, uint flip, float x) {
-    precise float reversed = 1.0 - x;
-    return ((side >> 1u) ^ flip) == 1u ? reversed : x;
-}
-
-// The shared point at (u,v) on a side of a patch, corners excepted, from the cubic record of the edge.
-SurfacePoint cubic_side_point(uint id, uint side, vec2 uv) {
-    uint edge = patches[id].edge[side];
-    float x = (side & 1u) == 0u ? uv.x : uv.y;
-    return edge_record_at(edge >> 1u, edge_parameter(side, edge & 1u, x));
-}
-
 #endif

@@ -31,6 +31,8 @@ pub(crate) struct SurfaceBuffers {
     pub(crate) vertex_general: Bindings,
     pub(crate) edge_regular: Bindings,
     pub(crate) edge_general: Bindings,
+    pub(crate) edge_gathered: Bindings,
+    pub(crate) patch_gathered: Bindings,
     pub(crate) projections: Bindings,
     /// What the patch stages and the sampling kernel read.
     pub(crate) patches: Bindings,
@@ -78,7 +80,7 @@ impl SurfaceBuffers {
             (plan.vertex_records.count() as u64) * u64::from(constant::VERTEX_RECORD_FLOATS),
         )?;
         let edge_records =
-            up.floats("edge records", (plan.edge_records.count() as u64) * u64::from(constant::EDGE_RECORD_FLOATS))?;
+            up.floats("edge records", (plan.edge_record_count() as u64) * u64::from(constant::EDGE_RECORD_FLOATS))?;
         let coefficients = up.floats("coefficients", u64::from(plan.vector_count) * 3)?;
         let spokes: Vec<u32> =
             std::iter::once(plan.first_general_edge()).chain(cast_slice(&plan.spokes).iter().copied()).collect();
@@ -90,7 +92,8 @@ impl SurfaceBuffers {
             .with(binding::VERTEX_RECORDS, &vertex_records)
             .with(binding::EDGE_RECORDS, &edge_records)
             .with(binding::COEFFICIENTS, &coefficients)
-            .with(binding::SPOKES, &up.table("spoke records", &spokes)?);
+            .with(binding::SPOKES, &up.table("spoke records", &spokes)?)
+            .with(binding::FANS, &up.table("fans", &plan.gathers.fans)?);
         let levels = plan
             .levels
             .iter()
@@ -117,6 +120,8 @@ impl SurfaceBuffers {
             vertex_general: sources("sources of general vertex records", cast_slice(&vertices.general))?,
             edge_regular: sources("sources of regular edge records", &edges.regular)?,
             edge_general: sources("sources of general edge records", cast_slice(&edges.general))?,
+            edge_gathered: sources("sources of gathered edge records", cast_slice(&plan.gathers.edges))?,
+            patch_gathered: sources("sources of gathered patches", cast_slice(&plan.gathers.patches))?,
             projections: sources("sources of coefficients", cast_slice(&plan.projections))?,
             phantom: common.clone().with(binding::INDICES, &up.table("phantom points", &plan.reflections)?),
             cage_edges: common.clone().with(binding::INDICES, &up.table("cage edges", cage_edges)?),
@@ -133,8 +138,7 @@ impl SurfaceBuffers {
 }
 
 fn staging(device: &Device, plan: &SurfacePlan) -> Result<Buffer, EngineError> {
-    let cage_points = plan.levels.first().map_or(0, |tables| tables.vertex_count()) as u64;
-    let desc =
-        BufferDesc { name: "cage points", size: 12 * cage_points, usage: BufferUsage::STORAGE, memory: Memory::Upload };
+    let size = 12 * u64::from(plan.cage_points);
+    let desc = BufferDesc { name: "cage points", size, usage: BufferUsage::STORAGE, memory: Memory::Upload };
     Ok(device.buffer(&desc)?)
 }

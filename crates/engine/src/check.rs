@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use osculate_subdiv::SurfacePlan;
 
-use crate::keys::{edge_parameter, is_on_side};
+use crate::keys::{common_side, edge_parameter};
 use crate::{CapturedVertex, EngineError, Surface, Tessellation, VertexKey};
 
 /// What [`check`] found. A watertight surface has zero in all but `triangles` and `degenerate`.
@@ -177,7 +177,7 @@ impl<'a> Proof<'a> {
 
     fn add_border(&mut self, a: &CapturedVertex, b: &CapturedVertex) {
         let record = &self.plan.patches[a.patch as usize];
-        let Some(side) = (0..4).find(|&side| is_on_side(side, a.uv) && is_on_side(side, b.uv)) else {
+        let Some(side) = common_side(record, &[a.uv, b.uv]) else {
             self.report.open += 1;
             return;
         };

@@ -44,7 +44,8 @@ fn stages(kind: PatchKind) -> [String; 3] {
     let form = kind.form();
     let name = form.name();
     if kind.is_stored() {
-        return ["patch/stored.vert".to_owned(), "patch/stored.tesc".to_owned(), format!("patch/stored_{name}.tese")];
+        let control = if form == PatchForm::Triangle { "patch/stored_triangle.tesc" } else { "patch/stored.tesc" };
+        return ["patch/stored.vert".to_owned(), control.to_owned(), format!("patch/stored_{name}.tese")];
     }
     let control = match form {
         PatchForm::Stam => format!("patch/stam.tesc#{}", patch_points(kind)),

@@ -43,9 +43,7 @@ pub use keys::VertexKey;
 pub use osculate_cage::{BoundaryRule, Cage};
 pub use osculate_gpu::{Device, DeviceDesc, DeviceError, DeviceInfo, GpuError, devices};
 pub use osculate_shaders::ShaderSet;
-pub use osculate_subdiv::{
-    PatchForm, PatchKind, PatchLocation, PlanError, Scheme, SubFace, SurfacePlan, UnknownScheme,
-};
+pub use osculate_subdiv::{PatchForm, PatchKind, Place, PlanError, Scheme, SubFace, SurfacePlan, UnknownScheme};
 pub use pipelines::{PipelineObserver, PipelineProgress};
 pub use render::{Picture, RenderDesc, Shade, render};
 pub use sample::{Sample, SurfacePoint};

@@ -7,9 +7,10 @@ use osculate_gpu::{BufferDesc, BufferUsage, Memory, Recording};
 use osculate_shaders::binding;
 use osculate_shaders::constant::SAMPLE_FLOATS;
 use osculate_shaders::layout::{KernelPush, SampleRequest};
-use osculate_subdiv::{NONE, PatchForm, SubFace};
+use osculate_subdiv::{NONE, PatchForm, PatchPoint, SubFace};
 
 use crate::kernels::Kernel;
+use crate::keys::corner_of;
 use crate::{EngineError, Surface};
 
 /// A point of the surface: (s,t) of a base quad, or of a sub-face of any other face.
@@ -38,6 +39,12 @@ pub struct Sample {
     pub irregular: bool,
 }
 
+/// A point of a patch, and how it is asked for.
+struct Found {
+    request: SampleRequest,
+    point: PatchPoint,
+}
+
 /// Requests sent at once.
 const CHUNK: usize = 1 << 20;
 
@@ -51,6 +58,7 @@ fn kernel(form: PatchForm) -> &'static str {
         PatchForm::Gregory => "sample/gregory.comp",
         PatchForm::Stam => "sample/stam.comp",
         PatchForm::Biseptic => "sample/biseptic.comp",
+        PatchForm::Triangle => "sample/triangle.comp",
     }
 }
 
@@ -63,24 +71,28 @@ impl Surface {
         let found = points.iter().map(|point| self.find(point)).collect::<Result<Vec<_>, _>>()?;
         let mut samples = Vec::with_capacity(points.len());
         for chunk in found.chunks(CHUNK) {
-            let values = self.evaluate(chunk)?;
-            samples.extend(chunk.iter().zip(values.chunks_exact(SAMPLE)).map(|(at, v)| self.finish(at, v)));
+            let requests: Vec<SampleRequest> = chunk.iter().map(|found| found.request).collect();
+            let values = self.evaluate(&requests)?;
+            samples.extend(chunk.iter().zip(values.chunks_exact(SAMPLE)).map(|(found, v)| self.finish(found, v)));
         }
         Ok(samples)
     }
 
     /// Patch and parameters of a point.
-    fn find(&self, point: &SurfacePoint) -> Result<SampleRequest, EngineError> {
+    fn find(&self, point: &SurfacePoint) -> Result<Found, EngineError> {
         let &SurfacePoint { sub_face: SubFace { face, sub }, s, t } = point;
         let error = |reason| EngineError::NoSuchPoint { face, sub, s, t, reason };
         if !((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)) {
             return Err(error("s and t go from 0 to 1"));
         }
         let found = self.plan().locator.find(point.sub_face, [s, t]);
-        let (quad, [u, v]) = found.ok_or_else(|| error("the cage has no such face or sub-face; quads have sub -1"))?;
-        match self.plan().patch_of_quad[quad as usize] {
+        let point = found.ok_or_else(|| error("the cage has no such face or sub-face; quads have sub -1"))?;
+        match self.plan().patch_of_quad[point.face as usize] {
             NONE => Err(error("the face is not drawn: it is a hole, or at the boundary under the rule none")),
-            patch_id => Ok(SampleRequest { patch_id, u: u as f32, v: v as f32 }),
+            patch_id => {
+                let [u, v] = point.uv.map(|x| x as f32);
+                Ok(Found { request: SampleRequest { patch_id, u, v }, point })
+            }
         }
     }
 
@@ -125,17 +137,17 @@ impl Surface {
         Ok(output.read(0..size)?)
     }
 
-    fn finish(&self, request: &SampleRequest, values: &[f32]) -> Sample {
+    fn finish(&self, Found { request, point }: &Found, values: &[f32]) -> Sample {
         let vector = |i: usize| Vec3::from_slice(&values[3 * i..]);
         let (du, dv) = (self.space().leave_vector(vector(1)), self.space().leave_vector(vector(2)));
-        let [du, dv] = self.locate(request.patch_id).derivatives(du, dv);
-        let record = &self.plan().patches[request.patch_id as usize];
+        let [du, dv] = point.derivatives(du, dv);
+        let corner = corner_of(&self.plan().patches[request.patch_id as usize], [request.u, request.v]);
         Sample {
             position: self.space().leave(vector(0)),
             du,
             dv,
             normal: vector(3).as_dvec3(),
-            irregular: record.is_extraordinary() && request.u == 0.0 && request.v == 0.0,
+            irregular: corner.is_some_and(|corner| self.plan().is_irregular_corner(request.patch_id, corner)),
         }
     }
 }

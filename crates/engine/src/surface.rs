@@ -5,7 +5,7 @@ use osculate_cage::{BoundaryRule, Cage};
 use osculate_gpu::Recording;
 use osculate_shaders::constant::EDGE_RECORD_POINTS;
 use osculate_shaders::layout::KernelPush;
-use osculate_subdiv::{PatchLocation, PlanDesc, SurfacePlan};
+use osculate_subdiv::{Place, PlanDesc, SurfacePlan};
 
 use crate::buffers::SurfaceBuffers;
 use crate::kernels::Kernel;
@@ -119,7 +119,7 @@ impl Surface {
     }
 
     /// The kernels of what is made from the points of the last level.
-    fn record_kernels(&self) -> [Kernel<'_>; 6] {
+    fn record_kernels(&self) -> [Kernel<'_>; 8] {
         let (plan, buffers) = (&self.plan, &self.buffers);
         let (vertices, edges) = (&plan.vertex_records, &plan.edge_records);
         let per_element = |shader, bindings, count: usize, first: u32| (shader, bindings, count as u32, first, 1);
@@ -141,7 +141,15 @@ impl Surface {
                 edges.regular.len() as u32,
                 EDGE_RECORD_POINTS,
             ),
-            per_element("records/coefficients.comp", &buffers.projections, plan.vector_count as usize, 0),
+            per_element("records/coefficients.comp", &buffers.projections, plan.projected_count() as usize, 0),
+            per_element(
+                "records/edge_gathered.comp",
+                &buffers.edge_gathered,
+                plan.gathers.edges.len(),
+                edges.count() as u32,
+            ),
+            // One thread for each corner.
+            ("records/patch_gathered.comp", &buffers.patch_gathered, plan.gathers.patches.len() as u32, 0, 4),
         ]
         .map(|(shader, bindings, count, first, threads_each)| {
             let push = KernelPush { count, first, old_distance: 0 };
@@ -174,12 +182,12 @@ impl Surface {
         self.buffers.bytes
     }
 
-    /// Where a patch lies on the cage.
+    /// Where a point of a patch lies on the cage.
     ///
     /// # Panics
     /// If there is no such patch.
-    pub fn locate(&self, patch: u32) -> PatchLocation {
-        self.plan.locator.locate(self.plan.quads[patch as usize])
+    pub fn place(&self, patch: u32, uv: [f64; 2]) -> Place {
+        self.plan.locator.place(self.plan.quads[patch as usize], uv)
     }
 
     /// All points on the device, in cage space: the cage's, those of each level, phantom points. For tests and tools.

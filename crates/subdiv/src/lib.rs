@@ -20,10 +20,11 @@ mod spokes;
 mod tables;
 pub mod twin;
 mod weights;
+mod whole;
 
 pub use connectivity::{Connectivity, QuadConnectivity};
 pub use error::PlanError;
-pub use location::{Locator, PatchLocation, PatchPoint, Place, SubFace};
+pub use location::{Locator, PatchPoint, Place, SubFace};
 pub use patches::{PatchForm, PatchKind, PatchList, PatchRecord};
 pub use plan::{PlanDesc, SurfacePlan};
 pub use projections::ProjectionSource;
@@ -31,6 +32,7 @@ pub use records::MatrixSource;
 pub use scheme::{Scheme, UnknownScheme};
 pub use spokes::SpokeRecord;
 pub use tables::RefineTables;
+pub use whole::{FanRecord, GatheredEdge, GatheredPatch, Gathers};
 
 /// "No such element": a missing twin, a face without patch.
 pub const NONE: u32 = u32::MAX;

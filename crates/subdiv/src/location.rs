@@ -13,34 +13,23 @@ pub struct SubFace {
     pub sub: i32,
 }
 
-/// The affine map from a patch's (u,v) to the (s,t) of its sub-face: `origin + u * u_axis + v * v_axis`. The axes are parallel to s and t and as long as the patch
+/// The affine map from a quad's (u,v) to the (s,t) of its sub-face: `origin + u * u_axis + v * v_axis`. The axes are parallel to s and t and as long as the quad
 /// is wide.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PatchLocation {
-    /// Part of the base mesh.
-    pub sub_face: SubFace,
-    /// (s,t) of the patch's corner 0.
-    pub origin: [f64; 2],
+#[derive(Clone, Copy)]
+struct Square {
+    sub_face: SubFace,
+    /// (s,t) of the quad's corner 0.
+    origin: [f64; 2],
     /// (s,t) from corner 0 to corner 1.
-    pub u_axis: [f64; 2],
+    u_axis: [f64; 2],
     /// (s,t) from corner 0 to corner 3.
-    pub v_axis: [f64; 2],
+    v_axis: [f64; 2],
 }
 
-impl PatchLocation {
-    /// (s,t) of the patch's (u,v).
-    pub fn st(&self, uv: [f64; 2]) -> [f64; 2] {
+impl Square {
+    /// (s,t) of (u,v).
+    fn st(&self, uv: [f64; 2]) -> [f64; 2] {
         [0, 1].map(|i| self.origin[i] + uv[0] * self.u_axis[i] + uv[1] * self.v_axis[i])
-    }
-
-    /// Derivatives with respect to s and t from those with respect to u and v.
-    pub fn derivatives<V>(&self, du: V, dv: V) -> [V; 2]
-    where
-        V: Copy + std::ops::Mul<f64, Output = V> + std::ops::Add<Output = V>,
-    {
-        // The axes are orthogonal and equally long, so the inverse of the map is its transpose over the squared length.
-        let squared = self.u_axis[0] * self.u_axis[0] + self.u_axis[1] * self.u_axis[1];
-        [0, 1].map(|i| du * (self.u_axis[i] / squared) + dv * (self.v_axis[i] / squared))
     }
 }
 
@@ -117,13 +106,13 @@ impl Locator {
             let (sub, st) = into_sub_face(uv);
             return Place { sub_face: SubFace { face, sub: sub as i32 }, st };
         }
-        let location = self.locate(face);
-        Place { sub_face: location.sub_face, st: location.st(uv) }
+        let square = self.square(face);
+        Place { sub_face: square.sub_face, st: square.st(uv) }
     }
 
-    /// The place of a final quad.
-    pub fn locate(&self, quad: u32) -> PatchLocation {
-        let whole = |face, sub| PatchLocation {
+    /// The part of a sub-face that a final quad is.
+    fn square(&self, quad: u32) -> Square {
+        let whole = |face, sub| Square {
             sub_face: SubFace { face, sub },
             origin: [0.0; 2],
             u_axis: [1.0, 0.0],
@@ -140,13 +129,8 @@ impl Locator {
         if self.steps == 2 { child_of(&child, quad & 3) } else { child }
     }
 
-    /// The final face that holds (s,t) of a sub-face, and its (u,v); `None` if there is no such sub-face.
-    pub fn find(&self, sub_face: SubFace, st: [f64; 2]) -> Option<(u32, [f64; 2])> {
-        self.trace(sub_face, st).map(|point| (point.face, point.uv))
-    }
-
     /// The point of a patch at (s,t) of a sub-face; `None` if there is no such sub-face.
-    pub fn trace(&self, sub_face: SubFace, st: [f64; 2]) -> Option<PatchPoint> {
+    pub fn find(&self, sub_face: SubFace, st: [f64; 2]) -> Option<PatchPoint> {
         let face = sub_face.face;
         if face as usize + 1 >= self.face_offsets.len() {
             return None;
@@ -175,11 +159,11 @@ impl Locator {
 }
 
 /// The child at `corner` of a square: half as wide, its corner 0 there, its u axis along the side to the next corner.
-fn child_of(square: &PatchLocation, corner: u32) -> PatchLocation {
+fn child_of(square: &Square, corner: u32) -> Square {
     let at = |i: u32| square.st(CORNERS[(i & 3) as usize]);
     let (origin, next, previous) = (at(corner), at(corner + 1), at(corner + 3));
     let half = |to: [f64; 2]| [0, 1].map(|i| (to[i] - origin[i]) / 2.0);
-    PatchLocation { origin, u_axis: half(next), v_axis: half(previous), ..*square }
+    Square { origin, u_axis: half(next), v_axis: half(previous), ..*square }
 }
 
 /// The same point in the child of its square that holds it, which `number` gives its number.
@@ -263,7 +247,7 @@ mod tests {
         for steps in 0..3 {
             let locator = locator(steps);
             for place in places(&locator) {
-                let point = locator.trace(place.sub_face, place.st).unwrap();
+                let point = locator.find(place.sub_face, place.st).unwrap();
                 let back = locator.place(point.face, point.uv);
                 assert_eq!(locator.base_face(point.face), place.sub_face.face);
                 let inside = place.st.iter().all(|x| (0.1..0.9).contains(x));
@@ -285,7 +269,7 @@ mod tests {
                 places(&locator).into_iter().filter(|at| at.st.iter().all(|x| [0.125, 0.375, 0.875].contains(x)))
             {
                 let h = 2.0_f64.powi(-20);
-                let at = |s: f64, t: f64| locator.trace(place.sub_face, [place.st[0] + s, place.st[1] + t]).unwrap();
+                let at = |s: f64, t: f64| locator.find(place.sub_face, [place.st[0] + s, place.st[1] + t]).unwrap();
                 for (axis, (plus, minus)) in
                     [(at(h, 0.0), at(-h, 0.0)), (at(0.0, h), at(0.0, -h))].into_iter().enumerate()
                 {
@@ -301,7 +285,7 @@ mod tests {
     #[test]
     fn sub_faces_of_a_triangle_meet() {
         let locator = locator(0);
-        let at = |sub, st| locator.trace(SubFace { face: 1, sub }, st).unwrap().uv;
+        let at = |sub, st| locator.find(SubFace { face: 1, sub }, st).unwrap().uv;
         for sub in 0..3 {
             let centroid = at(sub, [1.0, 1.0]);
             assert!(centroid.iter().all(|x| (x - 1.0 / 3.0).abs() < 1e-15), "{centroid:?}");
@@ -321,11 +305,11 @@ mod tests {
         for i in 0..=1000 {
             let x = f64::from(i) / 1000.0;
             for (sub, st) in [(1, [x, 0.0]), (2, [0.0, x])] {
-                let [u, v] = locator.trace(SubFace { face: 1, sub }, st).unwrap().uv;
+                let [u, v] = locator.find(SubFace { face: 1, sub }, st).unwrap().uv;
                 assert_eq!((1.0 - u as f32) - v as f32, 0.0, "{x} of sub-face {sub}");
                 assert_eq!([u as f32, v as f32].map(f64::from), [u, v]);
             }
-            let [u, v] = locator.trace(SubFace { face: 1, sub: 1 }, [x, 0.0]).unwrap().uv;
+            let [u, v] = locator.find(SubFace { face: 1, sub: 1 }, [x, 0.0]).unwrap().uv;
             assert!((v - x / 2.0).abs() < 4e-8 && u + v == 1.0);
         }
     }

@@ -20,6 +20,8 @@ pub enum PatchForm {
     Stam,
     /// Bezier patch of bidegree 7: 64 points.
     Biseptic,
+    /// Quartic Gregory triangle: 15 points.
+    Triangle,
 }
 
 impl PatchForm {
@@ -30,6 +32,7 @@ impl PatchForm {
             Self::Gregory => 1,
             Self::Stam => 2,
             Self::Biseptic => 3,
+            Self::Triangle => 4,
         }
     }
 
@@ -40,6 +43,7 @@ impl PatchForm {
             Self::Gregory => "gregory",
             Self::Stam => "stam",
             Self::Biseptic => "biseptic",
+            Self::Triangle => "triangle",
         }
     }
 
@@ -48,6 +52,7 @@ impl PatchForm {
             1 => Self::Gregory,
             2 => Self::Stam,
             3 => Self::Biseptic,
+            4 => Self::Triangle,
             _ => Self::Bicubic,
         }
     }
@@ -151,6 +156,16 @@ impl PatchRecord {
     pub const BOUNDARY: u32 = 16;
     /// The valence of corner 0 begins at this bit of the tag (number of edges).
     pub const VALENCE_SHIFT: u32 = 8;
+
+    /// The tag of a patch of a kind; `valence` is that of corner 0, or of the most irregular corner where several may be.
+    pub(crate) fn tag_of(kind: PatchKind, boundary: bool, valence: u32) -> u32 {
+        Tag::new(kind, boundary, valence).0
+    }
+
+    /// Number of corners, and of sides: the entries of `vertex` and `edge` that are in use.
+    pub fn sides(&self) -> usize {
+        if self.kind().form() == PatchForm::Triangle { 3 } else { 4 }
+    }
 
     /// Number of edges at corner 0.
     pub fn valence(&self) -> u32 {

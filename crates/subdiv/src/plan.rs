@@ -11,8 +11,9 @@ use crate::nets::FinalMesh;
 use crate::patches::{LIST_VALENCES, Tag};
 use crate::records::{RecordSources, assign};
 use crate::weights::WeightTable;
+use crate::whole;
 use crate::{
-    Connectivity, Locator, PatchForm, PatchList, PatchRecord, PlanError, ProjectionSource, QuadConnectivity,
+    Connectivity, Gathers, Locator, PatchForm, PatchList, PatchRecord, PlanError, ProjectionSource, QuadConnectivity,
     RefineTables, Scheme, SpokeRecord,
 };
 
@@ -31,7 +32,11 @@ pub struct SurfacePlan {
     pub rule: BoundaryRule,
     /// Scheme.
     pub scheme: Scheme,
-    /// Tables of the steps: one for cages of quads, else two. That isolates extraordinary vertices: at most corner 0 of a final quad is one.
+    /// Refinement steps: see [`Self::steps`].
+    pub(crate) steps: u32,
+    /// Points of the cage.
+    pub cage_points: u32,
+    /// Tables of the refinement steps; under [`Scheme::Gregory1`] then, if need be, tables of the final faces' centroids alone.
     pub levels: Vec<RefineTables>,
     /// Points in the buffer: of all levels, then phantom points.
     pub point_count: u32,
@@ -61,6 +66,8 @@ pub struct SurfacePlan {
     pub projections: Vec<ProjectionSource>,
     /// Vectors in the coefficient buffer.
     pub vector_count: u32,
+    /// What is gathered from vectors in the coefficient buffer: under [`Scheme::Gregory1`] edge records and control points.
+    pub gathers: Gathers,
     /// Whether each edge record belongs to one drawn patch only: the boundary of what is drawn.
     pub boundary_edges: Vec<bool>,
     /// From final quads to base faces and back.
@@ -74,12 +81,15 @@ impl SurfacePlan {
     /// If the refined mesh is too large for 32-bit indices, or no face is left to draw.
     pub fn build(cage: &Cage, desc: &PlanDesc) -> Result<Self, PlanError> {
         let rule = desc.boundary.or(cage.boundary_rule()).unwrap_or_default();
-        let steps = if cage.is_quads() { 1 } else { 2 };
-        check_size(cage, steps)?;
         let drawn = cage.drawn_faces(rule);
         if !drawn.contains(&true) {
             return Err(PlanError::NothingToDraw { faces: cage.face_count() });
         }
+        if desc.scheme == Scheme::Gregory1 {
+            return whole::build(cage, rule, &drawn);
+        }
+        let steps = if cage.is_quads() { 1 } else { 2 };
+        check_size(cage, steps)?;
         let (base, locator) = (cage.topology(), Locator::new(cage, steps));
         let tables = RefineTables::build(base, rule, 0);
         if steps == 1 {
@@ -115,6 +125,8 @@ impl SurfacePlan {
         Ok(Self {
             rule,
             scheme,
+            steps: levels.len() as u32,
+            cage_points: levels.first().map_or(0, |level| level.vertex_count() as u32),
             levels,
             point_count: first_phantom + nets.phantoms.reflections.len() as u32,
             first_phantom,
@@ -130,14 +142,37 @@ impl SurfacePlan {
             spokes: records.spokes,
             projections: projections.sources,
             vector_count: projections.count,
+            gathers: Gathers::default(),
             boundary_edges: records.boundary_edges,
             locator,
         })
     }
 
-    /// Number of refinement steps.
+    /// Number of refinement steps, the same for the whole cage. One for cages of quads, else two; that isolates extraordinary vertices: at most corner 0 of a
+    /// final quad is one. Under [`Scheme::Gregory1`] none for cages of quads and triangles, else one.
     pub fn steps(&self) -> u32 {
-        self.levels.len() as u32
+        self.steps
+    }
+
+    /// Number of edge records: of regular nets, of other nets, gathered.
+    pub fn edge_record_count(&self) -> usize {
+        self.edge_records.count() + self.gathers.edges.len()
+    }
+
+    /// Number of vectors at the start of the coefficient buffer that come from projections; control points that are gathered from them follow.
+    pub fn projected_count(&self) -> u32 {
+        self.gathers.patches.first().map_or(self.vector_count, |patch| patch.first)
+    }
+
+    /// Whether the surface is irregular at a corner of a patch: it has no derivatives there in general, only a tangent plane.
+    pub fn is_irregular_corner(&self, patch: u32, corner: usize) -> bool {
+        let record = &self.patches[patch as usize];
+        if self.scheme != Scheme::Gregory1 {
+            return corner == 0 && record.is_extraordinary();
+        }
+        let first_stored = self.patches.len() - self.gathers.patches.len();
+        let gathered = (patch as usize).checked_sub(first_stored).map(|i| &self.gathers.patches[i]);
+        gathered.is_some_and(|source| self.gathers.irregular[source.fan[corner] as usize])
     }
 
     /// Number of the first edge record that does not come from a regular net: the one of the first spoke record.
@@ -158,6 +193,7 @@ impl SurfacePlan {
             + sources(&self.edge_records)
             + size_of_val(self.spokes.as_slice())
             + size_of_val(self.projections.as_slice())
+            + self.gathers.bytes()
     }
 }
 

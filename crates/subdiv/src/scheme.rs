@@ -9,6 +9,8 @@ use crate::patches::LIST_VALENCES;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum Scheme {
+    /// Gregory patches of all quads and triangles, with no refinement but of larger faces: tangent plane continuous (report, section 4.4).
+    Gregory1,
     /// Gregory patches after the isolating refinement steps: tangent plane continuous (report, section 4.4).
     #[default]
     Gregory2,
@@ -20,11 +22,12 @@ pub enum Scheme {
 
 impl Scheme {
     /// All schemes of this build.
-    pub const ALL: &'static [Self] = &[Self::Gregory2, Self::Stam, Self::Biseptic];
+    pub const ALL: &'static [Self] = &[Self::Gregory1, Self::Gregory2, Self::Stam, Self::Biseptic];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
+            Self::Gregory1 => "gregory1",
             Self::Gregory2 => "gregory2",
             Self::Stam => "stam",
             Self::Biseptic => "biseptic",
@@ -42,7 +45,7 @@ impl Scheme {
     /// The formula of extraordinary patches at the boundary.
     pub(crate) fn boundary_form(self) -> PatchForm {
         match self {
-            Self::Gregory2 => PatchForm::Gregory,
+            Self::Gregory1 | Self::Gregory2 => PatchForm::Gregory,
             Self::Stam | Self::Biseptic => PatchForm::Stam,
         }
     }

@@ -47,6 +47,21 @@ impl RefineTables {
         }
     }
 
+    /// The centroids of all faces of `old`, alone.
+    pub(crate) fn centroids(old: &impl Connectivity, first_old: u32) -> Self {
+        let (face_spans, face_indices) = face_tables(old, first_old);
+        Self {
+            first_old,
+            first_new: first_old + old.vertex_count() as u32,
+            quads: face_spans.iter().all(|span| span[1] == 4),
+            face_spans,
+            face_indices,
+            edge_indices: Vec::new(),
+            vertex_spans: Vec::new(),
+            vertex_indices: Vec::new(),
+        }
+    }
+
     /// Number of new face points, F.
     pub fn face_count(&self) -> usize {
         self.face_spans.len()

@@ -1,6 +1,8 @@
 //! The compute stages on the host, in f32 with the device's order of operations: equal bit for bit where the device rounds `/` and `sqrt` correctly. They
 //! tell a wrong kernel from a wrong table. Each function has the name of the shader whose twin it is.
 
+mod gathered;
+
 use glam::Vec3;
 
 use crate::{MatrixSource, ProjectionSource, RefineTables, SurfacePlan};
@@ -104,7 +106,7 @@ fn regular_vertex(plan: &SurfacePlan, points: &[Vec3], source: u32) -> VertexRec
     [position, unit_or_zero(cross_product(along_u, (m2 - m0) * 0.5))]
 }
 
-/// shaders/records/edge_regular.comp and edge_general.comp.
+/// shaders/records/edge_regular.comp, edge_general.comp and edge_gathered.comp.
 pub fn edge_records(plan: &SurfacePlan, points: &[Vec3]) -> Vec<EdgeRecord> {
     let regular = plan.edge_records.regular.iter().map(|&source| regular_edge(plan, points, source));
     let general = plan
@@ -112,7 +114,9 @@ pub fn edge_records(plan: &SurfacePlan, points: &[Vec3]) -> Vec<EdgeRecord> {
         .general
         .iter()
         .map(|source| [0, 1, 2, 3, 4, 5, 6, 7].map(|row| matrix_row(plan, points, source, row)));
-    regular.chain(general).collect()
+    let vectors = if plan.gathers.edges.is_empty() { Vec::new() } else { projected_vectors(plan, points) };
+    let gathered = plan.gathers.edges.iter().map(|source| gathered::edge(plan, &vectors, source));
+    regular.chain(general).chain(gathered).collect()
 }
 
 fn regular_edge(plan: &SurfacePlan, points: &[Vec3], source: u32) -> EdgeRecord {
@@ -137,11 +141,20 @@ fn bspline_to_bezier([a, b, c, d]: [Vec3; 4]) -> [Vec3; 4] {
     ]
 }
 
-/// shaders/records/coefficients.comp.
+/// shaders/records/coefficients.comp and patch_gathered.comp.
 pub fn coefficients(plan: &SurfacePlan, points: &[Vec3]) -> Vec<Vec3> {
+    let mut vectors = projected_vectors(plan, points);
+    for source in &plan.gathers.patches {
+        vectors.extend(gathered::control_points(plan, &vectors, source));
+    }
+    vectors
+}
+
+/// shaders/records/coefficients.comp.
+fn projected_vectors(plan: &SurfacePlan, points: &[Vec3]) -> Vec<Vec3> {
     let mut vectors = Vec::with_capacity(plan.vector_count as usize);
     for (i, source) in plan.projections.iter().enumerate() {
-        let end = plan.projections.get(i + 1).map_or(plan.vector_count, |next| next.first);
+        let end = plan.projections.get(i + 1).map_or(plan.projected_count(), |next| next.first);
         vectors.extend((0..end - source.first).map(|row| projected(plan, points, source, row)));
     }
     vectors

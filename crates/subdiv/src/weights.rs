@@ -28,6 +28,7 @@ pub(crate) fn rows(form: PatchForm, net_size: u32) -> u32 {
         PatchForm::Gregory => 20,
         PatchForm::Stam => net_size,
         PatchForm::Biseptic => 64,
+        PatchForm::Triangle => 15,
     }
 }
 
@@ -70,6 +71,7 @@ fn block(net: NetKind, role: Role) -> Vec<f32> {
         Role::Vertex(corner) => gregory::vertex(net, corner).to_f32(),
         Role::Edge(side) => gregory::edge(net, side).to_f32(),
         Role::Patch(PatchForm::Bicubic) => unreachable!("regular nets need no weights: their kernels know them"),
+        Role::Patch(PatchForm::Triangle) => unreachable!("triangles are gathered from fans"),
     }
 }
 

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 use osculate_cage::{BoundaryRule, Cage};
-use osculate_subdiv::{NONE, PatchForm, PatchKind, PlanDesc, PlanError, Scheme, SurfacePlan, twin};
+use osculate_subdiv::{NONE, PatchForm, PatchKind, Place, PlanDesc, PlanError, Scheme, SurfacePlan, twin};
 
 mod common;
 
@@ -111,11 +111,11 @@ fn edge_records_end_in_vertex_records() {
 fn locations_map_there_and_back() {
     for (name, cage, plan) in plans() {
         for (patch, &quad) in plan.quads.iter().enumerate() {
-            let location = plan.locator.locate(quad);
-            assert_eq!(location.sub_face.face, plan.locator.base_face(quad), "{name}");
             for uv in [[0.25, 0.125], [0.75, 0.5], [0.375, 0.875]] {
-                let found = plan.locator.find(location.sub_face, location.st(uv));
-                assert_eq!(found, Some((quad, uv)), "{name}: patch {patch}");
+                let place = plan.locator.place(quad, uv);
+                assert_eq!(place.sub_face.face, plan.locator.base_face(quad), "{name}");
+                let found = plan.locator.find(place.sub_face, place.st).unwrap();
+                assert_eq!((found.face, found.uv), (quad, uv), "{name}: patch {patch}");
             }
         }
         // One step cuts a quad into 4, two steps a quad into 16 and the part of any other face into 4.
@@ -143,10 +143,9 @@ fn vertex_records_lie_on_the_exact_surface() {
         let vertices = twin::vertex_records(&plan, &points);
         // A sample of patches is enough in large cages.
         for patch in (0..plan.patches.len()).step_by(plan.patches.len() / 500 + 1) {
-            let location = plan.locator.locate(plan.quads[patch]);
             for (corner, uv) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].into_iter().enumerate() {
-                let [s, t] = location.st(uv);
-                let exact = reference.eval(location.sub_face.face as usize, location.sub_face.sub, s, t).unwrap();
+                let Place { sub_face, st: [s, t] } = plan.locator.place(plan.quads[patch], uv);
+                let exact = reference.eval(sub_face.face as usize, sub_face.sub, s, t).unwrap();
                 let [position, normal] = vertices[plan.patches[patch].vertex[corner] as usize].map(|v| v.as_dvec3());
                 let error = (position - (exact.position - centre) / scale).length();
                 assert!(error < 2e-6, "{name}: corner {corner} of patch {patch} is off by {error:e}");

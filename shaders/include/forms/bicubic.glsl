@@ -2,6 +2,7 @@
 #ifndef FORMS_BICUBIC_GLSL
 #define FORMS_BICUBIC_GLSL
 #include "forms/form.glsl"
+#include "domains/quad.glsl"
 #include "curvature.glsl"
 
 void bicubic_points(out vec3 b[16]) {

@@ -3,6 +3,7 @@
 #ifndef FORMS_BISEPTIC_GLSL
 #define FORMS_BISEPTIC_GLSL
 #include "forms/form.glsl"
+#include "domains/quad.glsl"
 #include "spokes.glsl"
 #include "curvature.glsl"
 

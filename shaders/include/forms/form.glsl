@@ -1,4 +1,4 @@
-// What every form of patch defines, for the stage that evaluates it, and what it asks of the stage.
+// What every form of patch defines, for the stage that evaluates it, and what it asks of the stage. A form includes its domain.
 #ifndef FORM_GLSL
 #define FORM_GLSL
 #include "records.glsl"
@@ -13,6 +13,12 @@ struct InnerPoint {
     vec3 plane;
 };
 
+// From the domain: the side and the corner at (u,v), 4 for none, the parameter on the record of a side, and what outlines are drawn by.
+uint side_of(vec2 uv);
+uint corner_of(vec2 uv);
+float edge_parameter(uint side, uint flip, vec2 uv);
+vec2 shade_outline(vec2 uv);
+
 // From the stage: control point i of the patch at hand, in the form's own basis.
 vec3 control(uint i);
 
@@ -23,16 +29,21 @@ vec2 shade_curvature(uint id, vec2 uv);
 // From the form: the shared point at (u,v) on a side of the patch, corners excepted.
 SurfacePoint side_point(uint id, uint side, vec2 uv);
 
+// The shared point at (u,v) on a side of a patch, corners excepted, from the cubic record of the edge.
+SurfacePoint cubic_side_point(uint id, uint side, vec2 uv) {
+    uint edge = patches[id].edge[side];
+    return edge_record_at(edge >> 1u, edge_parameter(side, edge & 1u, uv));
+}
+
 // The shared point at (u,v), if (u,v) is on an edge or a corner of the patch.
 bool shared_point(uint id, vec2 uv, out SurfacePoint point) {
     uint side = side_of(uv);
     if (side == 4u) {
         return false;
     }
-    bool corner = (uv.x == 0.0 || uv.x == 1.0) && (uv.y == 0.0 || uv.y == 1.0);
-    if (corner) {
-        uint k = uv.y == 0.0 ? (uv.x == 0.0 ? 0u : 1u) : (uv.x == 0.0 ? 3u : 2u);
-        point = vertex_record_point(patches[id].vertex[k]);
+    uint corner = corner_of(uv);
+    if (corner != 4u) {
+        point = vertex_record_point(patches[id].vertex[corner]);
     } else {
         point = side_point(id, side, uv);
     }

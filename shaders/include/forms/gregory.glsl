@@ -3,15 +3,9 @@
 #ifndef FORMS_GREGORY_GLSL
 #define FORMS_GREGORY_GLSL
 #include "forms/form.glsl"
+#include "domains/quad.glsl"
 #include "curvature.glsl"
-
-// The interior point between f+ and f-, which each rule on their own edge. At the corner itself the quotient is 0/0; its Bernstein
-// weight is zero there, so any finite value serves.
-vec3 gregory_blend(vec3 plus, vec3 minus, float weight_plus, float weight_minus) {
-    precise float sum = weight_plus + weight_minus;
-    precise vec3 r = (weight_plus * plus + weight_minus * minus) / sum;
-    return sum > 0.0 ? r : plus;
-}
+#include "gregory_blend.glsl"
 
 // The bicubic Bezier points that stand for the Gregory patch at (u,v). Differentiating them as constants is exact on all four edges.
 void gregory_bezier(vec2 uv, out vec3 b[16]) {

@@ -3,6 +3,7 @@
 #ifndef FORMS_STAM_GLSL
 #define FORMS_STAM_GLSL
 #include "forms/form.glsl"
+#include "domains/quad.glsl"
 #include "spokes.glsl"
 #include "curvature.glsl"
 #include "nets.glsl"

@@ -6,7 +6,7 @@ use osculate::{
     SurfacePoint, Tessellation,
 };
 use osculate_shaders::layout::SampleRequest;
-use osculate_subdiv::{PatchRecord, twin};
+use osculate_subdiv::{PatchPoint, PatchRecord, twin};
 use osculate_surface::jet::Jet;
 use osculate_surface::reference::{Boundary, Mesh, Reference};
 use osculate_surface::{NetKind, bezier, gregory};
@@ -86,8 +86,8 @@ fn compare_with_exact(name: &str, cage: &Cage, surface: &Surface, exact: &Refere
         let name = format!("{name} at {point:?}");
         let exact = exact.eval(point.sub_face.face as usize, point.sub_face.sub, point.s, point.t).unwrap();
         let error = (sample.position - exact.position).length() / size;
-        let (quad, uv) = surface.plan().locator.find(point.sub_face, [point.s, point.t]).unwrap();
-        let record = &surface.plan().patches[surface.plan().patch_of_quad[quad as usize] as usize];
+        let PatchPoint { face, uv, .. } = surface.plan().locator.find(point.sub_face, [point.s, point.t]).unwrap();
+        let record = &surface.plan().patches[surface.plan().patch_of_quad[face as usize] as usize];
         if record.is_extraordinary() {
             let corner = uv.iter().all(|&x| x == 0.0 || x == 1.0);
             let allowed = if corner { 1e-6 } else { GREGORY_DISTANCE };

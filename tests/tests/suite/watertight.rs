@@ -175,7 +175,7 @@ fn edges_evaluated_from_patches_are_noticed() {
     let mutation = Mutation {
         path: "include/forms/form.glsl",
         from: "if (side == 4u) {",
-        to: "if (side == 4u || !((uv.x == 0.0 || uv.x == 1.0) && (uv.y == 0.0 || uv.y == 1.0))) {",
+        to: "if (side == 4u || corner_of(uv) == 4u) {",
     };
     sabotaged(
         &[mutation],
@@ -186,14 +186,14 @@ fn edges_evaluated_from_patches_are_noticed() {
 
 #[test]
 fn corners_evaluated_from_edges_are_noticed() {
-    let mutation = Mutation { path: "include/forms/form.glsl", from: "if (corner) {", to: "if (corner && false) {" };
+    let mutation = Mutation { path: "include/forms/form.glsl", from: "if (corner != 4u) {", to: "if (corner > 4u) {" };
     sabotaged(&[mutation], |_| level(5.0, Spacing::Equal), |report| report.split_positions > 0);
 }
 
 #[test]
 fn a_parameter_that_is_not_reversed_is_noticed() {
     let mutation = Mutation {
-        path: "include/records.glsl",
+        path: "include/domains/quad.glsl",
         from: "return ((side >> 1u) ^ flip) == 1u ? reversed : x;",
         to: "return (side >> 1u) == 1u ? reversed : x;",
     };
@@ -226,8 +226,8 @@ fn a_normal_of_the_patch_on_an_edge_is_noticed() {
 fn triangles_that_run_the_wrong_way_are_noticed() {
     let mutation = Mutation {
         path: "include/evaluation_stage.glsl",
-        from: "layout(quads, SPACING, cw) in;",
-        to: "layout(quads, SPACING, ccw) in;",
+        from: "layout(DOMAIN, SPACING, cw) in;",
+        to: "layout(DOMAIN, SPACING, ccw) in;",
     };
     sabotaged(
         &[mutation],

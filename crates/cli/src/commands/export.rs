@@ -10,7 +10,7 @@ use crate::options::{CameraArgs, Output, SchemeName, TessellationArgs};
 use crate::progress::Progress;
 use clap::Args;
 use glam::Vec3;
-use osculate::{CapturedVertex, Engine, Scheme, SubFace, Surface, SurfaceDesc, Tessellation, VertexKey};
+use osculate::{CapturedVertex, Engine, Place, Scheme, SubFace, Surface, SurfaceDesc, Tessellation, VertexKey};
 use osculate_cage::Bounds;
 use osculate_compare::whole_file;
 use std::io::{self, Write};
@@ -178,9 +178,7 @@ impl Drawing<'_> {
     }
 
     fn placed(&self, vertex: &CapturedVertex) -> SoupVertex {
-        let location = self.surface.locate(vertex.patch);
-        let SubFace { face, sub } = location.sub_face;
-        let st = location.st(vertex.uv.map(f64::from));
+        let Place { sub_face: SubFace { face, sub }, st } = self.surface.place(vertex.patch, vertex.uv.map(f64::from));
         let (position, normal) = (Vec3::from(vertex.position), Vec3::from(vertex.normal));
         SoupVertex { position, normal, face: face as i32, sub, st: st.map(|x| x as f32) }
     }

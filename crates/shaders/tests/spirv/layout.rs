@@ -6,6 +6,7 @@ use osculate_shader_compiler::{CompileDesc, compile};
 use osculate_shaders::layout::{LAYOUTS, StructLayout};
 use osculate_shaders::{SHADERS, constant};
 use osculate_subdiv::{PatchForm, PatchRecord};
+use osculate_surface::gregory::CrossEnd;
 use rspirv::dr::{Instruction, Operand};
 use rspirv::spirv::{Decoration, Op};
 use std::collections::{BTreeMap, BTreeSet};
@@ -22,9 +23,14 @@ macro_rules! plan_struct {
     };
 }
 
-const PLAN_LAYOUTS: [StructLayout; 2] = [
+const PLAN_LAYOUTS: [StructLayout; 7] = [
     plan_struct!(PatchRecord { vertex, edge, net, basis, net_size, tag }),
     plan_struct!(MatrixSource { net, weights, columns }),
+    plan_struct!(ProjectionSource { net, weights, columns, absolute_rows, first }),
+    plan_struct!(SpokeRecord { vectors, table, modes }),
+    plan_struct!(FanRecord { first, edges, cross_end, cosine }),
+    plan_struct!(GatheredEdge { fan, edge }),
+    plan_struct!(GatheredPatch { fan, edge, first, sides }),
 ];
 
 /// Every struct that host and shaders share.
@@ -71,13 +77,28 @@ fn shared_structs_have_distinct_names() {
 
 #[test]
 fn tags_of_patches_have_the_same_bits_on_both_sides() {
-    let forms = [PatchForm::Bicubic, PatchForm::Gregory, PatchForm::Stam, PatchForm::Biseptic];
-    let numbers = [constant::FORM_BICUBIC, constant::FORM_GREGORY, constant::FORM_STAM, constant::FORM_BISEPTIC];
-    assert_eq!(forms.map(PatchForm::number), numbers);
+    let forms = [
+        (PatchForm::Bicubic, constant::FORM_BICUBIC),
+        (PatchForm::Gregory, constant::FORM_GREGORY),
+        (PatchForm::Stam, constant::FORM_STAM),
+        (PatchForm::Biseptic, constant::FORM_BISEPTIC),
+        (PatchForm::Triangle, constant::FORM_TRIANGLE),
+    ];
+    assert!(forms.iter().all(|(form, number)| form.number() == *number));
     assert_eq!(PatchRecord::FORM_MASK, constant::FORM_MASK);
     assert_eq!(PatchRecord::STORED, constant::TAG_STORED);
     assert_eq!(PatchRecord::BOUNDARY, constant::TAG_BOUNDARY);
     assert_eq!(PatchRecord::VALENCE_SHIFT, constant::TAG_VALENCE_SHIFT);
+}
+
+#[test]
+fn ends_of_edges_have_the_same_numbers_on_both_sides() {
+    let ends = [
+        (CrossEnd::Plain, constant::CROSS_END_PLAIN),
+        (CrossEnd::Vanishing, constant::CROSS_END_VANISHING),
+        (CrossEnd::Opposed, constant::CROSS_END_OPPOSED),
+    ];
+    assert!(ends.iter().all(|(end, number)| end.number() == *number));
 }
 
 const PARTICLE: StructLayout =
