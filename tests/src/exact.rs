@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3};
-use osculate::Surface;
+use osculate::{Place, Surface};
 use osculate_shaders::constant::SAMPLE_FLOATS;
 use osculate_shaders::layout::SampleRequest;
 use osculate_subdiv::{PatchKind, PatchRecord};
@@ -53,15 +53,14 @@ pub fn evaluate(surface: &Surface, requests: &[SampleRequest]) -> Vec<PatchPoint
 /// If the device fails, or the reference is of another cage.
 pub fn compare(surface: &Surface, exact: &Reference<'_>, requests: &[SampleRequest]) -> Vec<Pair> {
     let pair = |(&request, device): (&SampleRequest, PatchPoint)| {
-        let location = surface.locate(request.patch_id);
-        let [s, t] = location.st([request.u.into(), request.v.into()]);
-        let sub_face = location.sub_face;
+        let Place { sub_face, st: [s, t], axes } =
+            surface.place(request.patch_id, [request.u.into(), request.v.into()]);
         let at = exact.eval(sub_face.face as usize, sub_face.sub, s, t).unwrap_or_else(|error| panic!("{error}"));
         let along = |axis: [f64; 2]| (at.du * axis[0] + at.dv * axis[1]) * surface.space().scale;
         let exact = PatchPoint {
             position: surface.space().enter_exactly(at.position),
-            du: along(location.u_axis),
-            dv: along(location.v_axis),
+            du: along(axes[0]),
+            dv: along(axes[1]),
             normal: at.normal,
         };
         Pair { request, device, exact, irregular: at.irregular }

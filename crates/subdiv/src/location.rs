@@ -42,6 +42,8 @@ pub struct Place {
     pub sub_face: SubFace,
     /// Coordinates in its unit square.
     pub st: [f64; 2],
+    /// Derivatives of (s,t) with respect to the patch's u and v.
+    pub axes: [[f64; 2]; 2],
 }
 
 /// A point of a patch, found by its place on the base mesh.
@@ -104,10 +106,11 @@ impl Locator {
     pub fn place(&self, face: u32, uv: [f64; 2]) -> Place {
         if self.is_triangle(face) {
             let (sub, st) = into_sub_face(uv);
-            return Place { sub_face: SubFace { face, sub: sub as i32 }, st };
+            let axes = inverse(in_triangle(face, sub, st).axes);
+            return Place { sub_face: SubFace { face, sub: sub as i32 }, st, axes };
         }
         let square = self.square(face);
-        Place { sub_face: square.sub_face, st: square.st(uv) }
+        Place { sub_face: square.sub_face, st: square.st(uv), axes: [square.u_axis, square.v_axis] }
     }
 
     /// The part of a sub-face that a final quad is.
@@ -225,6 +228,11 @@ fn into_sub_face([u, v]: [f64; 2]) -> (usize, [f64; 2]) {
     (sub, [12.0 * b / (3.0 + gap + root), 12.0 * c / (3.0 - gap + root)].map(|x| x.min(1.0)))
 }
 
+fn inverse([[a, b], [c, d]]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
+    let determinant = a * d - b * c;
+    [[d, -b], [-c, a]].map(|row| row.map(|x| x / determinant))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -235,48 +243,47 @@ mod tests {
         Locator { face_offsets, steps }
     }
 
-    fn places(locator: &Locator) -> Vec<Place> {
+    fn places(locator: &Locator) -> Vec<(SubFace, [f64; 2])> {
         let st = |i: u32| [f64::from(i % 9) / 8.0, f64::from(i / 9) / 8.0];
         let faces = 0..locator.face_offsets.len() as u32 - 1;
         let sub_faces = faces.flat_map(|face| locator.sub_faces(face));
-        sub_faces.flat_map(|sub_face| (0..81).map(move |i| Place { sub_face, st: st(i) })).collect()
+        sub_faces.flat_map(|sub_face| (0..81).map(move |i| (sub_face, st(i)))).collect()
     }
 
     #[test]
     fn places_are_found_again() {
         for steps in 0..3 {
             let locator = locator(steps);
-            for place in places(&locator) {
-                let point = locator.find(place.sub_face, place.st).unwrap();
+            for (sub_face, st) in places(&locator) {
+                let point = locator.find(sub_face, st).unwrap();
                 let back = locator.place(point.face, point.uv);
-                assert_eq!(locator.base_face(point.face), place.sub_face.face);
-                let inside = place.st.iter().all(|x| (0.1..0.9).contains(x));
-                if back.sub_face == place.sub_face {
-                    let gap = (0..2).map(|i| (back.st[i] - place.st[i]).abs()).fold(0.0, f64::max);
-                    assert!(gap < 2e-7, "{steps} steps: {place:?} comes back as {back:?}");
+                assert_eq!(locator.base_face(point.face), sub_face.face);
+                if back.sub_face == sub_face {
+                    let gap = (0..2).map(|i| (back.st[i] - st[i]).abs()).fold(0.0, f64::max);
+                    assert!(gap < 2e-7, "{steps} steps: {st:?} of {sub_face:?} comes back as {back:?}");
                 } else {
-                    assert!(!inside, "{steps} steps: {place:?} comes back as {back:?}");
+                    let inside = st.iter().all(|x| (0.1..0.9).contains(x));
+                    assert!(!inside, "{steps} steps: {st:?} of {sub_face:?} comes back as {back:?}");
                 }
             }
         }
     }
 
     #[test]
-    fn axes_are_derivatives() {
+    fn axes_are_derivatives_and_each_others_inverses() {
         for steps in 0..3 {
             let locator = locator(steps);
-            for place in
-                places(&locator).into_iter().filter(|at| at.st.iter().all(|x| [0.125, 0.375, 0.875].contains(x)))
-            {
+            let off_lines = |st: &[f64; 2]| st.iter().all(|x| [0.125, 0.375, 0.875].contains(x));
+            for (sub_face, st) in places(&locator).into_iter().filter(|(_, st)| off_lines(st)) {
                 let h = 2.0_f64.powi(-20);
-                let at = |s: f64, t: f64| locator.find(place.sub_face, [place.st[0] + s, place.st[1] + t]).unwrap();
-                for (axis, (plus, minus)) in
-                    [(at(h, 0.0), at(-h, 0.0)), (at(0.0, h), at(0.0, -h))].into_iter().enumerate()
-                {
-                    for i in 0..2 {
-                        let slope = (plus.uv[i] - minus.uv[i]) / (2.0 * h);
-                        assert!((slope - at(0.0, 0.0).axes[axis][i]).abs() < 1e-8, "{steps} steps: {place:?}");
-                    }
+                let at = |s: f64, t: f64| locator.find(sub_face, [st[0] + s, st[1] + t]).unwrap();
+                let (here, along) = (at(0.0, 0.0), [at(h, 0.0), at(0.0, h)]);
+                let place = locator.place(here.face, here.uv);
+                for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let slope = (along[i].uv[j] - here.uv[j]) / h;
+                    assert!((slope - here.axes[i][j]).abs() < 1e-6, "{steps} steps: {st:?} of {sub_face:?}");
+                    let product: f64 = (0..2).map(|k| here.axes[i][k] * place.axes[k][j]).sum();
+                    assert!((product - f64::from(i == j)).abs() < 1e-6, "{steps} steps: {st:?} of {sub_face:?}");
                 }
             }
         }

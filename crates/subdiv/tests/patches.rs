@@ -144,7 +144,7 @@ fn vertex_records_lie_on_the_exact_surface() {
         // A sample of patches is enough in large cages.
         for patch in (0..plan.patches.len()).step_by(plan.patches.len() / 500 + 1) {
             for (corner, uv) in [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].into_iter().enumerate() {
-                let Place { sub_face, st: [s, t] } = plan.locator.place(plan.quads[patch], uv);
+                let Place { sub_face, st: [s, t], .. } = plan.locator.place(plan.quads[patch], uv);
                 let exact = reference.eval(sub_face.face as usize, sub_face.sub, s, t).unwrap();
                 let [position, normal] = vertices[plan.patches[patch].vertex[corner] as usize].map(|v| v.as_dvec3());
                 let error = (position - (exact.position - centre) / scale).length();

@@ -178,7 +178,8 @@ impl Drawing<'_> {
     }
 
     fn placed(&self, vertex: &CapturedVertex) -> SoupVertex {
-        let Place { sub_face: SubFace { face, sub }, st } = self.surface.place(vertex.patch, vertex.uv.map(f64::from));
+        let Place { sub_face: SubFace { face, sub }, st, .. } =
+            self.surface.place(vertex.patch, vertex.uv.map(f64::from));
         let (position, normal) = (Vec3::from(vertex.position), Vec3::from(vertex.normal));
         SoupVertex { position, normal, face: face as i32, sub, st: st.map(|x| x as f32) }
     }

@@ -3,7 +3,7 @@
 use std::collections::{BTreeSet, HashMap};
 
 use glam::{DMat3, DVec3, Vec3};
-use osculate::{Cage, Engine, Scheme, Surface, SurfacePoint};
+use osculate::{Cage, Engine, Place, Scheme, Surface, SurfacePoint};
 use osculate_subdiv::{PatchForm, PatchRecord};
 use osculate_surface::biseptic::{self, twin};
 use osculate_surface::jet::Jet;
@@ -155,9 +155,8 @@ fn distance_to_limit(engine: &Engine, n: u32, height: impl Fn(f64, f64) -> f64) 
     let at_centre = |record: &PatchRecord| record.valence() == n && !record.is_boundary();
     let requests = requests(&some_patches(&surface, 3, at_centre), &parameters);
     let points = requests.iter().map(|request| {
-        let location = surface.locate(request.patch_id);
-        let [s, t] = location.st([request.u.into(), request.v.into()]);
-        SurfacePoint { sub_face: location.sub_face, s, t }
+        let Place { sub_face, st: [s, t], .. } = surface.place(request.patch_id, [request.u.into(), request.v.into()]);
+        SurfacePoint { sub_face, s, t }
     });
     let points: Vec<SurfacePoint> = points.collect();
     let samples = surface.sample(&points).unwrap();

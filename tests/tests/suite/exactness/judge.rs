@@ -1,7 +1,7 @@
 //! How far single precision may be from the exact surface.
 
 use glam::DVec3;
-use osculate::{Cage, Surface};
+use osculate::{Cage, Place, Surface};
 use osculate_surface::reference::Reference;
 use osculate_tests::exact::Pair;
 
@@ -56,9 +56,8 @@ impl<'a> Judge<'a> {
 
     /// Least height of a patch at its corners, in cage space.
     pub(super) fn face_size(&self, patch: u32) -> f64 {
-        let location = self.surface.locate(patch);
         let corners = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|uv| {
-            let ([s, t], face) = (location.st(uv), location.sub_face);
+            let Place { sub_face: face, st: [s, t], .. } = self.surface.place(patch, uv);
             self.surface.space().enter_exactly(self.exact.eval(face.face as usize, face.sub, s, t).unwrap().position)
         });
         let height = |i: usize| {
