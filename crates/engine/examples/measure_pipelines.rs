@@ -19,7 +19,11 @@ use osculate::{
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 /// What a run finds, in the order in which it prints it.
-const PARTS: [&str; 5] = ["pipelines", "making them", "surface", "all to the first picture", "second picture"];
+const PARTS: [&str; 6] =
+    ["pipelines that draw", "kernels", "making both", "surface", "all to the first picture", "second picture"];
+
+/// One number for each part, times in milliseconds.
+type Run = [f64; PARTS.len()];
 
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -42,8 +46,7 @@ fn main() -> ExitCode {
 /// Prints median and quartiles of each part, for each scheme and each state of the caches.
 fn measure(runs: usize, cage: &str) -> Result<()> {
     for &scheme in Scheme::ALL {
-        let mut found: [(&str, Vec<[f64; 5]>); 3] =
-            ["cold, one thread", "cold", "warm"].map(|state| (state, Vec::new()));
+        let mut found: [(&str, Vec<Run>); 3] = ["cold, one thread", "cold", "warm"].map(|state| (state, Vec::new()));
         for _ in 0..runs.max(1) {
             let [one, all] = [tempfile::tempdir()?, tempfile::tempdir()?];
             for ((_, times), cache) in found.iter_mut().zip([&one, &all, &all]) {
@@ -65,7 +68,7 @@ fn measure(runs: usize, cage: &str) -> Result<()> {
 }
 
 /// Measures in a new process.
-fn start(scheme: Scheme, cache: &Path, threads: &str, cage: &str) -> Result<[f64; 5]> {
+fn start(scheme: Scheme, cache: &Path, threads: &str, cage: &str) -> Result<Run> {
     let output = Command::new(std::env::current_exe()?)
         .args(["--one", scheme.name()])
         .arg(cache)
@@ -82,7 +85,7 @@ fn start(scheme: Scheme, cache: &Path, threads: &str, cage: &str) -> Result<[f64
     numbers.try_into().map_err(|_| "a run did not print all numbers".into())
 }
 
-/// Draws a picture and prints what [`PARTS`] says, times in milliseconds.
+/// Draws a picture and prints a [`Run`].
 fn one(scheme: &str, cache: PathBuf, cage: &Path) -> Result<()> {
     let begin = Instant::now();
     let cage = Cage::read(cage)?;
@@ -99,7 +102,9 @@ fn one(scheme: &str, cache: PathBuf, cage: &Path) -> Result<()> {
     let again = Instant::now();
     render(&engine, &[&surface], &desc)?;
     let again = again.elapsed();
-    println!("{}", engine.pipeline_names().len());
+    let (kernels, drawing): (Vec<_>, Vec<_>) =
+        engine.pipeline_names().into_iter().partition(|name| name.ends_with(".comp"));
+    println!("{}\n{}", drawing.len(), kernels.len());
     let making = *making.lock().map_err(|_| "the observer failed")?;
     [making, made, first, again].iter().for_each(|time| println!("{}", 1e3 * time.as_secs_f64()));
     Ok(())
