@@ -15,6 +15,15 @@
 #define TRIANGLE_POINTS 15
 #define SAMPLE_FLOATS 12
 
+// Threads of a workgroup of the compute evaluator, which evaluates one patch.
+#define GRID_GROUP_SIZE 32
+// 32-bit words of a vertex that it makes: position, normal, measure, patch.
+#define GRID_VERTEX_WORDS 9
+// Bits of a rate that hold the number of segments; the others say where the parameters begin.
+#define GRID_SEGMENT_BITS 7
+// The first bit of GridPatch.owned that stands for a side.
+#define GRID_OWNED_SIDES 4
+
 // PatchRecord.tag: the formula (bits 0..2), whether control points are stored (bit 3), boundary flag (bit 4), valence of corner 0 (from bit 8).
 #define FORM_BICUBIC 0
 #define FORM_GREGORY 1
@@ -35,7 +44,8 @@
 #define FACTORS_UNIFORM 0
 #define FACTORS_ADAPTIVE 1
 
-// Frame.shade
+// Frame.shade; SHADE_NONE where nothing is drawn and vertices keep their (u,v).
+#define SHADE_NONE 255
 #define SHADE_LIT 0
 #define SHADE_NORMALS 1
 #define SHADE_PATCHES 2

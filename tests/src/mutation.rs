@@ -34,7 +34,8 @@ pub fn mutated(mutations: &[Mutation]) -> ShaderSet {
     };
     let mut set = ShaderSet::embedded();
     let mut different = 0;
-    let drawing = |path: &str| path.starts_with("patch/") || path.starts_with("shade/");
+    let drawing =
+        |path: &str| path.starts_with("patch/") || path.starts_with("evaluate/") || path.starts_with("shade/");
     for shader in SHADERS.iter().filter(|shader| drawing(shader.path)) {
         let text = load(shader.path).expect("an embedded shader has its source");
         let desc = CompileDesc {

@@ -54,6 +54,15 @@ impl Gallery {
         }
     }
 
+    /// The goldens, with the limits for devices other than theirs, whatever draws.
+    pub fn of_another_device() -> Self {
+        Self {
+            goldens: Goldens::new(Path::new(env!("CARGO_MANIFEST_DIR")).join("goldens")),
+            limits: Limits::OTHER_DEVICE,
+            failures: Vec::new(),
+        }
+    }
+
     /// Judges one picture.
     pub fn check(&mut self, name: &str, picture: &Picture) {
         if let Err(error) = self.goldens.check(name, picture, &self.limits) {

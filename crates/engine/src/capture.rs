@@ -1,12 +1,12 @@
-//! The triangles that the tessellator makes, by transform feedback.
+//! The triangles that the device makes: those of the tessellator by transform feedback, those of the compute evaluator from its buffers.
 
 use bytemuck::{Pod, Zeroable};
 use osculate_gpu::{BufferDesc, BufferUsage, CapturePass, Memory, Recording};
 use osculate_shaders::binding;
 
 use crate::draw::{Output, runs};
-use crate::frame::FrameDesc;
-use crate::{EngineError, Shade, Surface, Tessellation};
+use crate::grid::Layout;
+use crate::{EngineError, Evaluator, Surface, Tessellation};
 
 /// A vertex of a captured triangle, as the evaluation stage wrote it (shaders/include/evaluation_stage.glsl).
 #[repr(C)]
@@ -25,6 +25,9 @@ pub struct CapturedVertex {
 /// Most bytes captured at once: a big export is gigabytes.
 const CHUNK_BYTES: u64 = 64 << 20;
 
+/// About how many vertices are handed out at once where they need not be captured.
+const PART_VERTICES: usize = 1 << 20;
+
 /// Most bytes that a patch can fill: two triangles a cell, three vertices each.
 fn patch_bytes(segments: u32) -> u64 {
     // The tessellator may add a ring of thin triangles under fractional spacing.
@@ -32,12 +35,50 @@ fn patch_bytes(segments: u32) -> u64 {
     2 * cells * 3 * size_of::<CapturedVertex>() as u64
 }
 
+/// Hands the triangles of whole patches to `sink`, three vertices each; every patch has its own vertices.
+pub(crate) fn hand_out<E>(
+    indices: &[u32],
+    vertices: &[CapturedVertex],
+    mut sink: impl FnMut(&[CapturedVertex]) -> Result<(), E>,
+) -> Result<(), E> {
+    let vertex = |&index: &u32| vertices[index as usize];
+    let mut part: Vec<CapturedVertex> = Vec::new();
+    for patch in indices.chunk_by(|a, b| vertex(a).patch == vertex(b).patch) {
+        part.extend(patch.iter().map(vertex));
+        if part.len() >= PART_VERTICES {
+            sink(&part)?;
+            part.clear();
+        }
+    }
+    if part.is_empty() { Ok(()) } else { sink(&part) }
+}
+
 impl Surface {
-    /// Draws the surface into memory: hands whole patches' triangles, three own vertices each, in draw order, to `sink`, chunk by chunk.
+    /// Cuts the surface into triangles in memory: hands whole patches' triangles, three own vertices each, in draw order, to `sink`, chunk by chunk.
     ///
     /// # Errors
-    /// If the level is out of range, the device has no transform feedback, or fails; and whatever `sink` returns.
+    /// If the level is out of range, the tessellator is asked for and the device has no transform feedback, or it fails; and whatever `sink` returns.
     pub fn capture<E: From<EngineError>>(
+        &self,
+        tessellation: &Tessellation,
+        mut sink: impl FnMut(&[CapturedVertex]) -> Result<(), E>,
+    ) -> Result<(), E> {
+        if !self.captures_in_compute(tessellation) {
+            return self.capture_tessellator(tessellation, sink);
+        }
+        self.evaluate_grids(tessellation, Layout::Own, |chunk, vertices| hand_out(&chunk.indices, vertices, &mut sink))
+    }
+
+    /// Whether compute kernels hand out the triangles.
+    pub(crate) fn captures_in_compute(&self, tessellation: &Tessellation) -> bool {
+        match tessellation.evaluator {
+            Evaluator::Auto => !self.engine().device().info().features.transform_feedback,
+            Evaluator::Tessellator => false,
+            Evaluator::Compute => true,
+        }
+    }
+
+    fn capture_tessellator<E: From<EngineError>>(
         &self,
         tessellation: &Tessellation,
         mut sink: impl FnMut(&[CapturedVertex]) -> Result<(), E>,
@@ -46,14 +87,7 @@ impl Surface {
         let device = self.engine().device();
         self.require_capture()?;
         self.engine().prepare([], self.pipelines(tessellation.spacing, Output::Capture))?;
-        let frame = FrameDesc {
-            radius: self.radius(),
-            space: self.space(),
-            tessellation,
-            view: None,
-            shade: Shade::Lit,
-            line_color: [0.0; 4],
-        };
+        let frame = self.undrawn_frame(tessellation);
         let bindings = self.buffers().patches.clone().with(binding::FRAME, &frame.upload(device)?);
         let patches = u64::from(self.plan().patches.len() as u32);
         let size = CHUNK_BYTES.min(patches * patch_bytes(segments)).max(patch_bytes(segments));
@@ -86,7 +120,7 @@ impl Surface {
         Err(EngineError::Unsupported {
             device: info.name.clone(),
             what: "hand out the tessellator's triangles: it has no VK_EXT_transform_feedback".to_owned(),
-            hint: "choose another device with --device".to_owned(),
+            hint: "choose the compute evaluator, or another device".to_owned(),
         })
     }
 }

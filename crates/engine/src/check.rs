@@ -4,12 +4,20 @@
 //! the triangles must close over those keys. Inside a patch the triangles must close over (u,v). Only what lies on the border of patches is kept, so the
 //! memory needed grows with edges, not with triangles.
 
+mod shared;
+
 use std::collections::HashMap;
 
+use osculate_gpu::Memory;
 use osculate_subdiv::SurfacePlan;
 
+use crate::capture::hand_out;
+use crate::evaluate::Grids;
+use crate::grid::Layout;
 use crate::keys::{common_side, edge_parameter};
 use crate::{CapturedVertex, EngineError, Surface, Tessellation, VertexKey};
+
+use shared::{Mesh, compare};
 
 /// What [`check`] found. A watertight surface has zero in all but `triangles` and `degenerate`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,16 +63,20 @@ impl CheckReport {
     }
 }
 
-/// Draws a surface into memory and looks for cracks.
+/// Cuts a surface into triangles in memory and looks for cracks. The shared vertices of the compute evaluator must close by index, too.
 ///
 /// # Errors
 /// As [`Surface::capture`].
 pub fn check(surface: &Surface, tessellation: &Tessellation) -> Result<CheckReport, EngineError> {
     let mut proof = Proof::new(surface.plan());
-    surface.capture(tessellation, |vertices| {
-        proof.add(vertices);
-        Ok::<(), EngineError>(())
-    })?;
+    if surface.captures_in_compute(tessellation) {
+        proof.add_grids(surface, tessellation)?;
+    } else {
+        surface.capture(tessellation, |vertices| {
+            proof.add(vertices);
+            Ok::<(), EngineError>(())
+        })?;
+    }
     Ok(proof.finish(surface.boundary_edge_count()))
 }
 
@@ -99,6 +111,27 @@ impl<'a> Proof<'a> {
             welded: HashMap::new(),
             drawn: vec![false; plan.patches.len()],
         }
+    }
+
+    /// Takes the grids of the compute evaluator in both layouts.
+    fn add_grids(&mut self, surface: &Surface, tessellation: &Tessellation) -> Result<(), EngineError> {
+        let rates = surface.grid_rates(tessellation)?;
+        let frame = surface.undrawn_frame(tessellation).upload(surface.engine().device())?;
+        let grids = |layout| Grids::new(surface, &rates, layout, Memory::Readback);
+        let (own_grids, shared_grids) = (grids(Layout::Own)?, grids(Layout::Shared)?);
+        for (own, shared) in own_grids.chunks().zip(shared_grids.chunks()) {
+            let (own, shared) = (own?, shared?);
+            let own_vertices = own_grids.run(&own, &frame)?;
+            hand_out(&own.indices, &own_vertices, |vertices| {
+                self.add(vertices);
+                Ok::<(), EngineError>(())
+            })?;
+            let own_mesh = Mesh { vertices: &own_vertices, indices: &own.indices };
+            let shared_vertices = shared_grids.run(&shared, &frame)?;
+            let shared_mesh = Mesh { vertices: &shared_vertices, indices: &shared.indices };
+            compare(self.plan, own.patches.clone(), &own_mesh, &shared_mesh, &mut self.report);
+        }
+        Ok(())
     }
 
     /// Takes whole patches.

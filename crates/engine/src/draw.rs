@@ -3,7 +3,7 @@
 use bytemuck::bytes_of;
 use osculate_gpu::{
     Bindings, Blend, Compare, DepthBias, DepthState, Draw, Format, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode,
-    Tessellation as Stages, Topology,
+    Shader, Tessellation as Stages, Topology,
 };
 use osculate_shaders::{constant, layout::PatchPush};
 use osculate_subdiv::{PatchForm, PatchKind, PatchList};
@@ -35,6 +35,8 @@ pub(crate) const DEPTH_FORMAT: Format = Format::Depth32Float;
 pub(crate) enum PipelineKey {
     /// Patches of a kind.
     Patches { kind: PatchKind, spacing: Spacing, output: Output },
+    /// Vertices of the compute evaluator.
+    Grid { output: Output },
     /// Lines of the cage overlay: those in sight, or all, behind the surface too.
     Cage { target: Target, hidden: bool },
 }
@@ -63,6 +65,7 @@ impl PipelineKey {
     pub(crate) fn make(self, engine: &Engine) -> Result<GraphicsPipeline, EngineError> {
         match self {
             Self::Patches { kind, spacing, output } => make_patches(engine, kind, spacing, output),
+            Self::Grid { output } => make_grid(engine, output),
             Self::Cage { target, hidden } => make_cage(engine, target, hidden),
         }
     }
@@ -79,11 +82,7 @@ fn make_patches(
     let vertex = engine.shader(&vertex)?;
     let control = engine.shader(&control)?;
     let evaluation = engine.shader(&format!("{evaluation}#{}{capture}", spacing.variant()))?;
-    let fragment = match output {
-        Output::Fill(_) => Some(engine.shader("shade/surface.frag")?),
-        Output::Lines(_) => Some(engine.shader("shade/wire.frag")?),
-        Output::Capture => None,
-    };
+    let fragment = fragment(engine, output)?;
     let name = patches_name(kind, spacing, output);
     let specialization = [(constant::SPEC_NET_SIZE, patch_points(kind))];
     let desc = GraphicsPipelineDesc {
@@ -104,13 +103,36 @@ fn patches_name(kind: PatchKind, spacing: Spacing, output: Output) -> String {
         PatchKind::Extraordinary { valence, .. } => format!("{form} valence {valence}"),
         PatchKind::Stored { .. } => format!("{form} stored"),
     };
+    format!("{patches}, {}, {}", spacing.variant(), output_name(output))
+}
+
+fn output_name(output: Output) -> String {
     let target = |Target { color, samples }| format!("{color:?} x{samples}");
-    let output = match output {
+    match output {
         Output::Fill(to) => format!("fill {}", target(to)),
         Output::Lines(to) => format!("lines {}", target(to)),
         Output::Capture => "capture".to_owned(),
+    }
+}
+
+fn fragment(engine: &Engine, output: Output) -> Result<Option<Shader>, EngineError> {
+    match output {
+        Output::Fill(_) => Ok(Some(engine.shader("shade/surface.frag")?)),
+        Output::Lines(_) => Ok(Some(engine.shader("shade/wire.frag")?)),
+        Output::Capture => Ok(None),
+    }
+}
+
+fn make_grid(engine: &Engine, output: Output) -> Result<GraphicsPipeline, EngineError> {
+    let vertex = engine.shader("shade/grid.vert")?;
+    let fragment = fragment(engine, output)?;
+    let name = format!("grid, {}", output_name(output));
+    let desc = GraphicsPipelineDesc {
+        fragment: fragment.as_ref(),
+        topology: Topology::Triangles,
+        ..GraphicsPipelineDesc::new(&name, &vertex)
     };
-    format!("{patches}, {}, {output}", spacing.variant())
+    Ok(engine.device().graphics_pipeline(&with_output(desc, output))?)
 }
 
 fn with_output<'a>(desc: GraphicsPipelineDesc<'a>, output: Output) -> GraphicsPipelineDesc<'a> {

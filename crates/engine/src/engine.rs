@@ -21,6 +21,8 @@ pub struct EngineDesc {
     pub shaders: ShaderSet,
     /// Most patches of one draw; `None` takes what the driver is known to draw right.
     pub patches_per_draw: Option<u32>,
+    /// Most vertices that the compute evaluator makes at once; `None` takes what fits the device and a moderate buffer.
+    pub grid_vertices: Option<u32>,
     /// Folder in which the driver's memory of pipelines is kept from run to run, a file per device. What is damaged or was
     /// written by another driver is ignored, and several processes may use it at once; nothing that goes wrong with it is an
     /// error. `None` keeps nothing.

@@ -44,7 +44,7 @@ impl FrameDesc<'_> {
             level: 1.0,
             segments_per_length: 0.0,
             factor_mode: constant::FACTORS_UNIFORM,
-            shade: self.shade.constant(),
+            shade: self.view.map_or(constant::SHADE_NONE, |_| self.shade.constant()),
             curvature_length: CURVATURE_LENGTH * self.radius,
             near: 0.0,
             viewport: self.view.map_or([1.0; 2], |(_, size)| size.map(|pixels| pixels as f32)),

@@ -35,7 +35,11 @@ impl Kernel<'_> {
 
 /// Workgroups for so many threads, at most `GROUPS_X` along x (`thread_index` in shaders/include/thread.glsl).
 fn groups(threads: u32) -> [u32; 3] {
-    let groups = threads.div_ceil(GROUP_SIZE);
+    fold(threads.div_ceil(GROUP_SIZE))
+}
+
+/// So many workgroups, at most `GROUPS_X` of them along x.
+pub(crate) fn fold(groups: u32) -> [u32; 3] {
     [groups.min(GROUPS_X), groups.div_ceil(GROUPS_X), 1]
 }
 

@@ -41,25 +41,45 @@ pub enum Factors {
     },
 }
 
-/// How finely surfaces are tessellated.
+/// Who turns patches into triangles. Both evaluate the same formulas, and at equal parameters get equal points; the tessellator may place parameters a little
+/// differently, and joins them in its own pattern.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Evaluator {
+    /// The tessellator where the device can do what is asked with it, else compute.
+    #[default]
+    Auto,
+    /// Tessellation stages of the graphics pipeline.
+    Tessellator,
+    /// Compute kernels that write vertices, shared between patches, for plain indexed draws.
+    Compute,
+}
+
+/// How finely surfaces are tessellated, and by whom.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tessellation {
     /// Factors of patch edges.
     pub factors: Factors,
     /// Spacing of the vertices.
     pub spacing: Spacing,
+    /// Who does it.
+    pub evaluator: Evaluator,
 }
 
 impl Default for Tessellation {
     fn default() -> Self {
-        Self { factors: Factors::Uniform(8.0), spacing: Spacing::Equal }
+        Self { factors: Factors::Uniform(8.0), spacing: Spacing::Equal, evaluator: Evaluator::Auto }
     }
 }
 
 impl Tessellation {
     /// The same level for all edges, equally spaced.
     pub fn uniform(level: f32) -> Self {
-        Self { factors: Factors::Uniform(level), spacing: Spacing::Equal }
+        Self { factors: Factors::Uniform(level), ..Self::default() }
+    }
+
+    /// Whether compute kernels make pictures.
+    pub(crate) fn renders_in_compute(&self) -> bool {
+        self.evaluator == Evaluator::Compute
     }
 
     /// Most segments that an edge can get.

@@ -114,6 +114,26 @@ shared_structs! {
         pub old_distance: u32,
     }
 
+    /// How the compute evaluator divides one patch (`shaders/include/grid.glsl`). A rate is the number of segments and, from bit `GRID_SEGMENT_BITS` on,
+    /// where its parameters begin.
+    #[derive(Eq)]
+    pub struct GridPatch {
+        /// Global id of the patch.
+        pub patch_id: u32,
+        /// Bit k: this patch evaluates the vertex at corner k; bit `GRID_OWNED_SIDES` + k: those along side k.
+        pub owned: u32,
+        /// Its first inner vertex.
+        pub first_inner: u32,
+        /// Rates of the sides.
+        pub side_rate: [u32; 4],
+        /// Rates inside along u and along v.
+        pub inner_rate: [u32; 2],
+        /// Vertex at each corner.
+        pub corner_vertex: [u32; 4],
+        /// First vertex along each side, in the direction of the edge record.
+        pub side_vertex: [u32; 4],
+    }
+
     /// A point that `shaders/evaluate/sample.comp` is asked for.
     pub struct SampleRequest {
         /// Global id of the patch.

@@ -2,8 +2,8 @@
 
 use glam::{DVec3, Vec3};
 use osculate::{
-    BoundaryRule, Cage, CapturedVertex, EngineError, Factors, Scheme, Spacing, SubFace, Surface, SurfaceDesc,
-    SurfacePoint, Tessellation,
+    BoundaryRule, Cage, CapturedVertex, EngineError, Scheme, Spacing, SubFace, Surface, SurfaceDesc, SurfacePoint,
+    Tessellation,
 };
 use osculate_shaders::layout::SampleRequest;
 use osculate_subdiv::{PatchPoint, PatchRecord, twin};
@@ -30,7 +30,7 @@ fn the_sampling_kernel_gives_the_bits_of_the_evaluation_stage() {
     let exact = gpu.device().info().is_llvmpipe;
     for (specimen, scheme) in zoo::all().iter().flat_map(|specimen| Scheme::ALL.iter().map(move |&s| (specimen, s))) {
         let surface = surface_of(&gpu, &specimen.cage, scheme, None).unwrap();
-        let tessellation = Tessellation { factors: Factors::Uniform(3.4), spacing: Spacing::Odd };
+        let tessellation = Tessellation { spacing: Spacing::Odd, ..Tessellation::uniform(3.4) };
         let vertices = captured(&surface, &tessellation);
         let requests: Vec<SampleRequest> =
             vertices.iter().map(|v| SampleRequest { patch_id: v.patch, u: v.uv[0], v: v.uv[1] }).collect();

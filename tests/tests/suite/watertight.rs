@@ -13,7 +13,7 @@ fn assert_watertight(name: &str, surface: &Surface, tessellation: &Tessellation)
 }
 
 fn level(level: f32, spacing: Spacing) -> Tessellation {
-    Tessellation { factors: Factors::Uniform(level), spacing }
+    Tessellation { spacing, ..Tessellation::uniform(level) }
 }
 
 /// Adaptive factors from around the cage, some near enough that factors differ much.
@@ -27,6 +27,7 @@ fn adaptive(cage: &Cage, pixels: f32) -> Vec<Tessellation> {
     let tessellation = |(i, camera)| Tessellation {
         factors: Factors::Adaptive { pixels, camera, height: 256 },
         spacing: [Spacing::Odd, Spacing::Equal][i % 2],
+        ..Tessellation::default()
     };
     directions.into_iter().zip([2.5, 1.1]).map(camera).enumerate().map(tessellation).collect()
 }

@@ -77,6 +77,7 @@ pub(crate) struct Job {
     schemes: Vec<Scheme>,
     fineness: Fineness,
     spacing: SpacingArg,
+    evaluator: DrawEvaluator,
     json: bool,
     camera: CameraArgs,
 }
@@ -90,12 +91,12 @@ enum Fineness {
 impl CheckArgs {
     /// Checks the schemes.
     pub(crate) fn validate(self) -> Result<Job, Failure> {
-        self.evaluator.in_this_build()?;
         Ok(Job {
             schemes: SchemeChoice::schemes(&self.schemes)?,
             input: self.input,
             fineness: self.adaptive.map_or(Fineness::Levels(self.levels), Fineness::Adaptive),
             spacing: self.spacing,
+            evaluator: self.evaluator,
             json: self.json,
             camera: self.camera,
         })
@@ -133,7 +134,7 @@ struct Case {
 impl Job {
     fn cases(&self, bounds: Bounds) -> Result<Vec<Case>, Failure> {
         let case = |key, value, factors| {
-            let tessellation = Tessellation { factors, spacing: self.spacing.into() };
+            let tessellation = Tessellation { factors, spacing: self.spacing.into(), evaluator: self.evaluator.into() };
             Case { tessellation, key, value }
         };
         Ok(match &self.fineness {

@@ -3,7 +3,7 @@
 use super::{CameraArgs, Level, Pixels};
 use crate::failure::Failure;
 use clap::{Args, ValueEnum};
-use osculate::{Factors, Spacing, Tessellation};
+use osculate::{Evaluator, Factors, Spacing, Tessellation};
 use osculate_cage::Bounds;
 
 /// Options of commands that draw at one level.
@@ -23,7 +23,7 @@ pub(crate) struct TessellationArgs {
     #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     adaptive: Option<Pixels>,
 
-    /// Who evaluates the surface: the tessellation stages, in this build.
+    /// Who evaluates the surface.
     #[arg(long, value_name = "EVALUATOR", default_value = "auto")]
     evaluator: DrawEvaluator,
 }
@@ -31,12 +31,11 @@ pub(crate) struct TessellationArgs {
 impl TessellationArgs {
     /// The tessellation for a cage with this box.
     pub(crate) fn tessellation(&self, camera: &CameraArgs, bounds: Bounds) -> Result<Tessellation, Failure> {
-        self.evaluator.in_this_build()?;
         let factors = match self.adaptive {
             Some(pixels) => adaptive(pixels, camera, bounds)?,
             None => Factors::Uniform(self.level.get()),
         };
-        Ok(Tessellation { factors, spacing: self.spacing.into() })
+        Ok(Tessellation { factors, spacing: self.spacing.into(), evaluator: self.evaluator.into() })
     }
 }
 
@@ -81,22 +80,20 @@ impl From<SpacingArg> for Spacing {
 /// Evaluators that can draw.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum DrawEvaluator {
-    /// The best for the device; in this build the tessellator.
+    /// The tessellator where the device can do what is asked with it, else compute.
     Auto,
     /// The tessellation stages of the graphics pipeline.
     Tessellator,
-    /// Known to the command `sample` alone.
-    #[value(hide = true)]
+    /// Compute kernels, and plain indexed triangles; equal points at equal parameters.
     Compute,
 }
 
-impl DrawEvaluator {
-    /// Refuses evaluators that cannot draw in this build.
-    pub(crate) fn in_this_build(self) -> Result<(), Failure> {
-        match self {
-            Self::Auto | Self::Tessellator => Ok(()),
-            Self::Compute => Err(Failure::usage("--evaluator compute: drawing with it is not in this build")
-                .with_hint("leave --evaluator away; sample --evaluator compute evaluates points")),
+impl From<DrawEvaluator> for Evaluator {
+    fn from(arg: DrawEvaluator) -> Self {
+        match arg {
+            DrawEvaluator::Auto => Self::Auto,
+            DrawEvaluator::Tessellator => Self::Tessellator,
+            DrawEvaluator::Compute => Self::Compute,
         }
     }
 }

@@ -28,6 +28,20 @@ fn a_line_per_scheme_and_level() {
 }
 
 #[test]
+fn both_evaluators_are_proven() {
+    let folder = folder();
+    let lines = |evaluator| {
+        let arguments = ["check", "cage.obj", "--levels", "1,3.5", "--spacing", "even", "--evaluator", evaluator];
+        osculate(folder.path(), &arguments).exits(0).stdout
+    };
+    let (tessellator, compute) = (lines("tessellator"), lines("compute"));
+    assert_eq!(compute.matches(": watertight").count(), 2, "{compute}");
+    // 40 patches of 2 x 2 and 4 x 4 cells.
+    assert!(compute.contains("320 triangles") && compute.contains("1280 triangles"), "{compute}");
+    assert!(tessellator.contains("320 triangles"), "{tessellator}");
+}
+
+#[test]
 fn an_object_per_scheme_and_level() {
     let arguments =
         ["check", "cage.obj", "--json", "--schemes", "stam,gregory2,stam", "--levels", "2.5,5.3", "--spacing", "odd"];

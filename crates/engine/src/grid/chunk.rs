@@ -2,48 +2,22 @@
 
 use std::ops::Range;
 
-use bytemuck::{Pod, Zeroable};
+use osculate_shaders::layout::GridPatch;
 use osculate_subdiv::{NONE, PatchRecord, SurfacePlan};
 use rayon::prelude::*;
 
 use crate::grid::Layout;
 use crate::grid::plan::{GridPlanDesc, PatchGrid};
 
-/// A vertex on an edge record.
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-pub(crate) struct EdgeSample {
-    /// The edge record.
-    pub(crate) edge: u32,
-    /// Parameter on the record.
-    pub(crate) t: f32,
-}
-
-/// A patch as the kernels see it. A rate is the number of its segments and where its parameters begin ([`crate::grid::GridRates::word`]).
-#[repr(C)]
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Pod, Zeroable)]
-pub(crate) struct GridPatch {
-    /// Number of the patch.
-    pub(crate) patch: u32,
-    /// Its first inner vertex; in [`Layout::Own`] its border lies before it.
-    pub(crate) first_inner: u32,
-    /// Rates of the sides.
-    pub(crate) sides: [u32; 4],
-    /// Rates of the inside along u and along v.
-    pub(crate) inner: [u32; 2],
-}
-
-/// Vertices and triangles of consecutive patches. Vertices are numbered: those of vertex records, those of edge records, those of patches, which in
-/// [`Layout::Own`] are all.
+/// Vertices and triangles of consecutive patches.
+///
+/// A patch numbers the vertices at its corners, along its sides, and inside, in this order; in [`Layout::Shared`] it numbers only those that no patch before
+/// it has numbered, and it is the one that evaluates them.
 #[derive(Clone, Debug)]
 pub(crate) struct Chunk {
-    /// Vertex records, one vertex each.
-    pub(crate) vertex_records: Vec<u32>,
-    /// Vertices on edge records.
-    pub(crate) edge_samples: Vec<EdgeSample>,
-    /// The patches.
+    /// The patches as the kernels see them.
     pub(crate) patches: Vec<GridPatch>,
-    /// Number of all vertices.
+    /// Number of vertices.
     pub(crate) vertex_count: u32,
     /// Three vertices for each triangle, patch after patch.
     pub(crate) indices: Vec<u32>,
@@ -56,170 +30,128 @@ impl Chunk {
     pub(crate) fn new(desc: &GridPlanDesc<'_>, patches: Range<u32>, numbering: &mut Numbering) -> Self {
         let records = &desc.surface.patches[patches.start as usize..patches.end as usize];
         let grids: Vec<PatchGrid> = records.par_iter().map(|record| desc.grid(record)).collect();
-        let shared = desc.layout == Layout::Shared;
         numbering.clear();
-        if shared {
-            numbering.number(desc, records);
-        }
-        let mut next = numbering.count();
-        let mut placed = Vec::with_capacity(grids.len());
-        for (patch, grid) in patches.zip(&grids) {
-            let first_inner = next + if shared { 0 } else { grid.pattern.border_count() };
-            next = first_inner + grid.pattern.inner_count();
-            placed.push(grid.record(desc.rates, patch, first_inner));
-        }
-        let indices = Indices { desc, records, grids: &grids, placed: &placed, numbering }.write();
-        Self {
-            vertex_records: numbering.vertices.members.clone(),
-            edge_samples: numbering.edge_samples(desc),
-            vertex_count: next,
-            patches: placed,
-            indices,
-        }
-    }
-}
-
-/// Numbers given out to records of one sort.
-struct Numbers {
-    /// Number of each record, [`NONE`] if it has none.
-    of: Vec<u32>,
-    /// The records that have one, in order.
-    members: Vec<u32>,
-    next: u32,
-}
-
-impl Numbers {
-    fn new(records: usize) -> Self {
-        Self { of: vec![NONE; records], members: Vec::new(), next: 0 }
+        let numbered = patches.zip(records.iter().zip(&grids));
+        let patches: Vec<GridPatch> =
+            numbered.map(|(patch, (record, grid))| numbering.number(desc, patch, record, grid)).collect();
+        Self { vertex_count: numbering.next, indices: write_indices(records, &grids, &patches), patches }
     }
 
-    /// Gives a record the next `count` numbers, unless it has some.
-    fn give(&mut self, record: u32, count: u32) {
-        let number = &mut self.of[record as usize];
-        if *number == NONE {
-            *number = self.next;
-            self.next += count;
-            self.members.push(record);
-        }
-    }
-
-    fn clear(&mut self) {
-        for &record in &self.members {
-            self.of[record as usize] = NONE;
-        }
-        self.members.clear();
-        self.next = 0;
+    /// Global ids of its patches.
+    pub(crate) fn patch_range(&self) -> Range<u32> {
+        let first = self.patches.first().map_or(0, |patch| patch.patch_id);
+        first..first + self.patches.len() as u32
     }
 }
 
 /// Numbers of the vertices that the patches of a chunk share.
 pub(crate) struct Numbering {
-    vertices: Numbers,
-    /// Numbers of the first vertex of each edge record, from zero.
-    edges: Numbers,
+    next: u32,
+    /// Vertex of each vertex record, [`NONE`] if it has none yet.
+    of_vertex: Vec<u32>,
+    /// First vertex of each edge record; they lie in the record's direction.
+    of_edge: Vec<u32>,
+    /// The records that have vertices.
+    vertices: Vec<u32>,
+    edges: Vec<u32>,
 }
 
 impl Numbering {
     pub(crate) fn new(surface: &SurfacePlan) -> Self {
         Self {
-            vertices: Numbers::new(surface.vertex_records.count()),
-            edges: Numbers::new(surface.edge_records.count()),
+            next: 0,
+            of_vertex: vec![NONE; surface.vertex_records.count()],
+            of_edge: vec![NONE; surface.edge_record_count()],
+            vertices: Vec::new(),
+            edges: Vec::new(),
         }
-    }
-
-    fn number(&mut self, desc: &GridPlanDesc<'_>, records: &[PatchRecord]) {
-        for record in records {
-            for &vertex in &record.vertex {
-                self.vertices.give(vertex, 1);
-            }
-            for &edge in &record.edge {
-                self.edges.give(edge / 2, desc.rates.rate(desc.rates.of_edge(edge / 2)).segments() - 1);
-            }
-        }
-    }
-
-    /// Number of shared vertices.
-    fn count(&self) -> u32 {
-        self.vertices.next + self.edges.next
-    }
-
-    fn edge_samples(&self, desc: &GridPlanDesc<'_>) -> Vec<EdgeSample> {
-        let samples = |&edge: &u32| {
-            let rate = desc.rates.rate(desc.rates.of_edge(edge));
-            (1..rate.segments()).map(move |i| EdgeSample { edge, t: rate.parameter(i) })
-        };
-        self.edges.members.iter().flat_map(samples).collect()
-    }
-
-    /// Vertex `i` of `segments`, counted along a side of a patch from its first corner.
-    fn on_side(&self, record: &PatchRecord, side: usize, i: u32, segments: u32) -> u32 {
-        if i == 0 {
-            return self.vertices.of[record.vertex[side] as usize];
-        }
-        let (edge, flipped) = (record.edge[side] / 2, record.edge[side] & 1 == 1);
-        let along = if flipped { segments - i } else { i };
-        self.vertices.next + self.edges.of[edge as usize] + along - 1
     }
 
     fn clear(&mut self) {
-        self.vertices.clear();
-        self.edges.clear();
+        self.next = 0;
+        self.vertices.drain(..).for_each(|record| self.of_vertex[record as usize] = NONE);
+        self.edges.drain(..).for_each(|record| self.of_edge[record as usize] = NONE);
+    }
+
+    fn take(&mut self, count: u32) -> u32 {
+        let first = self.next;
+        self.next += count;
+        first
+    }
+
+    /// Numbers the vertices of the next patch.
+    fn number(&mut self, desc: &GridPlanDesc<'_>, patch: u32, record: &PatchRecord, grid: &PatchGrid) -> GridPatch {
+        let shared = desc.layout == Layout::Shared;
+        let mut numbered = grid.record(patch);
+        for (k, &segments) in grid.pattern.sides().iter().enumerate() {
+            let corner = if shared { self.of_vertex[record.vertex[k] as usize] } else { NONE };
+            numbered.corner_vertex[k] = corner;
+            if corner == NONE {
+                numbered.owned |= 1 << k;
+                numbered.corner_vertex[k] = self.take(1);
+                self.of_vertex[record.vertex[k] as usize] = numbered.corner_vertex[k];
+                self.vertices.push(record.vertex[k]);
+            }
+            let edge = (record.edge[k] / 2) as usize;
+            let side = if shared { self.of_edge[edge] } else { NONE };
+            numbered.side_vertex[k] = side;
+            if side == NONE {
+                numbered.owned |= 16 << k;
+                numbered.side_vertex[k] = self.take(segments - 1);
+                self.of_edge[edge] = numbered.side_vertex[k];
+                self.edges.push(edge as u32);
+            }
+        }
+        numbered.first_inner = self.take(grid.pattern.inner_count());
+        numbered
     }
 }
 
-/// Writes the triangles of all patches.
-struct Indices<'a> {
-    desc: &'a GridPlanDesc<'a>,
-    records: &'a [PatchRecord],
-    grids: &'a [PatchGrid],
-    placed: &'a [GridPatch],
-    numbering: &'a Numbering,
+/// Lists the vertices on the border of a patch, counter-clockwise from corner 0.
+fn list_border(record: &PatchRecord, grid: &PatchGrid, patch: &GridPatch, border: &mut Vec<u32>) {
+    border.clear();
+    for (k, &segments) in grid.pattern.sides().iter().enumerate() {
+        let first = patch.side_vertex[k];
+        border.push(patch.corner_vertex[k]);
+        if record.edge[k] & 1 == 0 {
+            border.extend(first..first + segments - 1);
+        } else {
+            border.extend((first..first + segments - 1).rev());
+        }
+    }
 }
 
-impl Indices<'_> {
-    fn write(&self) -> Vec<u32> {
-        let length = |grids: &[PatchGrid]| grids.iter().map(|grid| 3 * grid.pattern.triangle_count() as usize).sum();
-        let lengths: Vec<usize> = self.grids.par_chunks(GROUP).map(length).collect();
-        let mut indices = vec![0; lengths.iter().sum()];
-        let mut rest = indices.as_mut_slice();
-        let mut parts = Vec::with_capacity(lengths.len());
-        for length in lengths {
-            let (part, others) = rest.split_at_mut(length);
-            parts.push(part);
-            rest = others;
-        }
-        parts.into_par_iter().enumerate().for_each(|(group, part)| self.write_group(group, part));
-        indices
+/// The triangles of all patches.
+fn write_indices(records: &[PatchRecord], grids: &[PatchGrid], patches: &[GridPatch]) -> Vec<u32> {
+    let length = |grids: &[PatchGrid]| grids.iter().map(|grid| 3 * grid.pattern.triangle_count() as usize).sum();
+    let lengths: Vec<usize> = grids.par_chunks(GROUP).map(length).collect();
+    let mut indices = vec![0; lengths.iter().sum()];
+    let mut rest = indices.as_mut_slice();
+    let mut parts = Vec::with_capacity(lengths.len());
+    for length in lengths {
+        let (part, others) = rest.split_at_mut(length);
+        parts.push(part);
+        rest = others;
     }
+    let groups = records.par_chunks(GROUP).zip(grids.par_chunks(GROUP)).zip(patches.par_chunks(GROUP));
+    groups.zip(parts).for_each(|(((records, grids), patches), part)| write_group(records, grids, patches, part));
+    indices
+}
 
-    fn write_group(&self, group: usize, mut part: &mut [u32]) {
-        let mut border = Vec::new();
-        for i in group * GROUP..((group + 1) * GROUP).min(self.grids.len()) {
-            self.list_border(i, &mut border);
-            let (first_inner, border_count) = (self.placed[i].first_inner, border.len() as u32);
-            self.grids[i].pattern.for_each_triangle(|triangle| {
-                let (target, rest) = std::mem::take(&mut part).split_at_mut(3);
-                for (index, vertex) in target.iter_mut().zip(triangle) {
-                    let inner = vertex.checked_sub(border_count);
-                    *index = inner.map_or_else(|| border[vertex as usize], |inner| first_inner + inner);
-                }
-                part = rest;
-            });
-        }
-    }
-
-    /// Numbers of the vertices on the border of a patch, counter-clockwise.
-    fn list_border(&self, i: usize, border: &mut Vec<u32>) {
-        let pattern = &self.grids[i].pattern;
-        border.clear();
-        if self.desc.layout == Layout::Own {
-            let first_inner = self.placed[i].first_inner;
-            border.extend(first_inner - pattern.border_count()..first_inner);
-            return;
-        }
-        for (side, &segments) in pattern.sides().iter().enumerate() {
-            border.extend((0..segments).map(|k| self.numbering.on_side(&self.records[i], side, k, segments)));
-        }
+fn write_group(records: &[PatchRecord], grids: &[PatchGrid], patches: &[GridPatch], part: &mut [u32]) {
+    let mut triangles = part.as_chunks_mut::<3>().0.iter_mut();
+    let mut border = Vec::new();
+    for ((record, grid), patch) in records.iter().zip(grids).zip(patches) {
+        list_border(record, grid, patch, &mut border);
+        let vertex = |local: u32| match border.get(local as usize) {
+            Some(&vertex) => vertex,
+            None => patch.first_inner + local - border.len() as u32,
+        };
+        grid.pattern.for_each_triangle(|triangle| {
+            if let Some(target) = triangles.next() {
+                *target = triangle.map(vertex);
+            }
+        });
     }
 }
 
@@ -228,22 +160,27 @@ mod tests {
     use std::collections::{HashMap, HashSet};
 
     use osculate_cage::{Cage, read_obj};
-    use osculate_subdiv::PlanDesc;
+    use osculate_subdiv::{PlanDesc, Scheme};
 
     use super::*;
     use crate::Spacing;
     use crate::grid::{GridPlan, GridRates, Pattern};
 
-    fn plan(obj: &str) -> SurfacePlan {
+    fn plan(obj: &str, scheme: Scheme) -> SurfacePlan {
         let cage: Cage = read_obj(obj.as_bytes(), "cage.obj").unwrap();
-        SurfacePlan::build(&cage, &PlanDesc::default()).unwrap()
+        SurfacePlan::build(&cage, &PlanDesc { scheme, ..PlanDesc::default() }).unwrap()
     }
 
-    /// A closed cage with triangles and quads, valences 3 to 5.
-    fn house() -> SurfacePlan {
+    /// A closed cage with triangles and quads, valences 3 to 5: refined to quad patches, and as it is.
+    fn houses() -> [SurfacePlan; 2] {
+        [Scheme::Gregory2, Scheme::Gregory1].map(house)
+    }
+
+    fn house(scheme: Scheme) -> SurfacePlan {
         plan(
             "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\nv 0.5 0.5 2\n\
              f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\nf 5 6 9\nf 6 7 9\nf 7 8 9\nf 8 5 9\n",
+            scheme,
         )
     }
 
@@ -262,16 +199,16 @@ mod tests {
                 writeln!(obj, "f {a} {} {} {}", a + 1, a + n + 2, a + n + 1).unwrap();
             }
         }
-        plan(&obj)
+        plan(&obj, Scheme::Gregory2)
     }
 
     /// Factors that differ from edge to edge.
     fn uneven(surface: &SurfacePlan) -> Vec<f32> {
-        (0..surface.edge_records.count()).map(|edge| 1.0 + (edge * 7 % 11) as f32 * 0.61).collect()
+        (0..surface.edge_record_count()).map(|edge| 1.0 + (edge * 7 % 11) as f32 * 0.61).collect()
     }
 
     fn chunks(surface: &SurfacePlan, rates: &GridRates, layout: Layout, max_vertices: u32) -> Vec<Chunk> {
-        GridPlan::new(GridPlanDesc { surface, rates, layout, max_vertices }).chunks().collect()
+        GridPlan::new(GridPlanDesc { surface, rates, layout, max_vertices }).into_chunks().collect()
     }
 
     /// Directed edges without a partner, and those used twice.
@@ -303,58 +240,66 @@ mod tests {
         word & ((1 << GridRates::OFFSET_SHIFT) - 1)
     }
 
-    /// The place of each vertex of a patch as the kernels compute it from the patch alone: border and inside.
-    fn own_places(surface: &SurfacePlan, rates: &GridRates, patch: &GridPatch) -> Vec<Place> {
-        let record = &surface.patches[patch.patch as usize];
+    /// Number and place of each vertex that a patch evaluates, as the kernels find them (shaders/include/grid_stage.glsl).
+    fn evaluated(surface: &SurfacePlan, rates: &GridRates, patch: &GridPatch) -> Vec<(u32, Place)> {
+        let record = &surface.patches[patch.patch_id as usize];
         let mut places = Vec::new();
-        for (side, &word) in patch.sides.iter().enumerate() {
-            for i in 0..segments(word) {
-                let t = parameter(rates, word, i);
-                let t = if record.edge[side] & 1 == 1 { 1.0 - t } else { t };
-                places.push(match i {
-                    0 => Place::Vertex(record.vertex[side]),
-                    _ => Place::Edge(record.edge[side] / 2, t.to_bits()),
-                });
+        for k in 0..record.sides() {
+            if patch.owned >> k & 1 == 1 {
+                places.push((patch.corner_vertex[k], Place::Vertex(record.vertex[k])));
+            }
+            if patch.owned >> (4 + k) & 1 == 1 {
+                let word = patch.side_rate[k];
+                places.extend((1..segments(word)).map(|i| {
+                    let t = parameter(rates, word, i);
+                    (patch.side_vertex[k] + i - 1, Place::Edge(record.edge[k] / 2, t.to_bits()))
+                }));
             }
         }
-        for j in 1..segments(patch.inner[1]) {
-            for i in 1..segments(patch.inner[0]) {
-                let [u, v] = [parameter(rates, patch.inner[0], i), parameter(rates, patch.inner[1], j)];
-                places.push(Place::Inside(patch.patch, u.to_bits(), v.to_bits()));
+        let [nu, nv] = patch.inner_rate.map(segments);
+        if record.sides() == 3 {
+            let inner = (1..nu).flat_map(|j| (1..nu - j).map(move |i| Place::Inside(patch.patch_id, i, j)));
+            places.extend((patch.first_inner..).zip(inner));
+            return places;
+        }
+        for j in 1..nv {
+            for i in 1..nu {
+                let [u, v] = [parameter(rates, patch.inner_rate[0], i), parameter(rates, patch.inner_rate[1], j)];
+                let vertex = patch.first_inner + (j - 1) * (nu - 1) + i - 1;
+                places.push((vertex, Place::Inside(patch.patch_id, u.to_bits(), v.to_bits())));
             }
         }
         places
     }
 
-    /// The place of each vertex of a shared chunk.
-    fn shared_places(surface: &SurfacePlan, rates: &GridRates, chunk: &Chunk) -> Vec<Place> {
-        let mut places: Vec<Place> = chunk.vertex_records.iter().map(|&vertex| Place::Vertex(vertex)).collect();
-        places.extend(chunk.edge_samples.iter().map(|sample| Place::Edge(sample.edge, sample.t.to_bits())));
+    /// The place of each vertex of a chunk; each has one writer.
+    fn places(surface: &SurfacePlan, rates: &GridRates, chunk: &Chunk) -> Vec<Place> {
+        let mut places = vec![None; chunk.vertex_count as usize];
         for patch in &chunk.patches {
-            assert_eq!(places.len() as u32, patch.first_inner);
-            let border: u32 = patch.sides.iter().map(|&word| segments(word)).sum();
-            places.extend(own_places(surface, rates, patch).into_iter().skip(border as usize));
+            for (vertex, place) in evaluated(surface, rates, patch) {
+                assert_eq!(places[vertex as usize].replace(place), None, "vertex {vertex} has two writers");
+            }
         }
-        places
+        places.into_iter().map(|place| place.expect("every vertex has a writer")).collect()
     }
 
     #[test]
     fn a_closed_surface_closes_by_index() {
-        let surface = house();
-        for spacing in [Spacing::Equal, Spacing::Odd, Spacing::Even] {
-            let factors = uneven(&surface);
-            for rates in [
-                GridRates::uniform(1.0, spacing),
-                GridRates::uniform(4.3, spacing),
-                GridRates::per_edge(&factors, spacing),
-            ] {
-                let chunks = chunks(&surface, &rates, Layout::Shared, u32::MAX);
-                let [chunk] = chunks.as_slice() else { panic!("{} chunks", chunks.len()) };
-                let (open, twice) = open_edges(chunk);
-                assert_eq!((open.len(), twice), (0, 0));
-                let used: HashSet<u32> = chunk.indices.iter().copied().collect();
-                assert_eq!(used.len() as u32, chunk.vertex_count);
-                assert!(used.iter().all(|&index| index < chunk.vertex_count));
+        for surface in houses() {
+            for spacing in [Spacing::Equal, Spacing::Odd, Spacing::Even] {
+                for rates in [
+                    GridRates::uniform(1.0, spacing),
+                    GridRates::uniform(4.3, spacing),
+                    GridRates::per_edge(&uneven(&surface), spacing),
+                ] {
+                    let chunks = chunks(&surface, &rates, Layout::Shared, u32::MAX);
+                    let [chunk] = chunks.as_slice() else { panic!("{} chunks", chunks.len()) };
+                    let (open, twice) = open_edges(chunk);
+                    assert_eq!((open.len(), twice), (0, 0));
+                    let used: HashSet<u32> = chunk.indices.iter().copied().collect();
+                    assert_eq!(used.len() as u32, chunk.vertex_count);
+                    assert!(used.iter().all(|&index| index < chunk.vertex_count));
+                }
             }
         }
     }
@@ -362,55 +307,51 @@ mod tests {
     /// V - E + F of the triangles is that of a sphere: nothing is joined that should not be.
     #[test]
     fn a_closed_surface_has_its_euler_number() {
-        let surface = house();
-        let rates = GridRates::per_edge(&uneven(&surface), Spacing::Odd);
-        let chunk = &chunks(&surface, &rates, Layout::Shared, u32::MAX)[0];
-        let faces = chunk.indices.len() as i64 / 3;
-        assert_eq!(i64::from(chunk.vertex_count) - faces * 3 / 2 + faces, 2);
+        for surface in houses() {
+            let rates = GridRates::per_edge(&uneven(&surface), Spacing::Odd);
+            let chunk = &chunks(&surface, &rates, Layout::Shared, u32::MAX)[0];
+            let faces = chunk.indices.len() as i64 / 3;
+            assert_eq!(i64::from(chunk.vertex_count) - faces * 3 / 2 + faces, 2);
+        }
     }
 
     /// Both layouts are the same triangles between the same places, patch by patch.
     #[test]
     fn both_layouts_join_the_same_places() {
-        for surface in [house(), sheet(3)] {
+        for surface in houses().into_iter().chain([sheet(3)]) {
             for spacing in [Spacing::Equal, Spacing::Odd, Spacing::Even] {
                 let rates = GridRates::per_edge(&uneven(&surface), spacing);
                 let shared = &chunks(&surface, &rates, Layout::Shared, u32::MAX)[0];
                 let own = &chunks(&surface, &rates, Layout::Own, u32::MAX)[0];
-                let shared_places = shared_places(&surface, &rates, shared);
-                assert_eq!(shared_places.len() as u32, shared.vertex_count);
+                let shared_places = places(&surface, &rates, shared);
                 let distinct: HashSet<&Place> = shared_places.iter().collect();
                 assert_eq!(distinct.len(), shared_places.len());
-                let places: Vec<Place> =
-                    own.patches.iter().flat_map(|patch| own_places(&surface, &rates, patch)).collect();
-                assert_eq!(places.len() as u32, own.vertex_count);
-                assert!(own.vertex_records.is_empty() && own.edge_samples.is_empty());
+                let own_places = places(&surface, &rates, own);
                 let at = |indices: &[u32], places: &[Place]| -> Vec<Place> {
                     indices.iter().map(|&index| places[index as usize]).collect()
                 };
-                assert!(at(&shared.indices, &shared_places) == at(&own.indices, &places));
+                assert!(at(&shared.indices, &shared_places) == at(&own.indices, &own_places));
             }
         }
     }
 
-    /// The lower side of one quad is the upper side of its neighbour, walked the other way.
+    /// Where two patches meet, one of them walks the record backwards.
     #[test]
     fn flipped_sides_walk_the_record_backwards() {
         let surface = sheet(1);
         let rates = GridRates::uniform(4.0, Spacing::Equal);
         let chunk = &chunks(&surface, &rates, Layout::Shared, u32::MAX)[0];
-        let first_sample = chunk.vertex_records.len() as u32;
+        let places = places(&surface, &rates, chunk);
         let (mut forwards, mut backwards) = (0, 0);
         for (patch, triangles) in chunk.patches.iter().zip(chunk.indices.chunks_exact(3 * 32)) {
-            let record = &surface.patches[patch.patch as usize];
+            let record = &surface.patches[patch.patch_id as usize];
             for side in 0..4 {
                 let flipped = record.edge[side] & 1 == 1;
-                let from = chunk.vertex_records.iter().position(|&v| v == record.vertex[side]).unwrap() as u32;
-                // The segment that begins at the corner ends at the record's first or last vertex.
-                let t = if flipped { 0.75 } else { 0.25 };
-                let sample = EdgeSample { edge: record.edge[side] / 2, t };
-                let to = first_sample + chunk.edge_samples.iter().position(|s| *s == sample).unwrap() as u32;
-                let has = |t: &[u32]| (0..3).any(|k| (t[k], t[(k + 1) % 3]) == (from, to));
+                let from = Place::Vertex(record.vertex[side]);
+                let t: f32 = if flipped { 0.75 } else { 0.25 };
+                let to = Place::Edge(record.edge[side] / 2, t.to_bits());
+                let at = |vertex: u32| places[vertex as usize];
+                let has = |t: &[u32]| (0..3).any(|k| (at(t[k]), at(t[(k + 1) % 3])) == (from, to));
                 assert!(triangles.chunks_exact(3).any(has), "side {side} of {record:?}");
                 *if flipped { &mut backwards } else { &mut forwards } += 1;
             }
@@ -428,7 +369,7 @@ mod tests {
             let parts = chunks(&surface, &rates, layout, 300);
             assert!(parts.len() > 5, "{}", parts.len());
             assert!(parts.iter().all(|chunk| chunk.vertex_count <= 300));
-            let patches: Vec<u32> = parts.iter().flat_map(|chunk| &chunk.patches).map(|patch| patch.patch).collect();
+            let patches: Vec<u32> = parts.iter().flat_map(|chunk| &chunk.patches).map(|patch| patch.patch_id).collect();
             assert!(patches.into_iter().eq(0..surface.patches.len() as u32));
             assert_eq!(parts.iter().map(|chunk| chunk.indices.len()).sum::<usize>(), whole);
             // A patch that is larger than the limit has a chunk of its own.
@@ -459,18 +400,20 @@ mod tests {
 
     #[test]
     fn the_first_vertex_of_a_triangle_is_the_patch_its_own() {
-        let surface = house();
-        let rates = GridRates::per_edge(&uneven(&surface), Spacing::Even);
-        let chunk = &chunks(&surface, &rates, Layout::Shared, u32::MAX)[0];
-        let desc = GridPlanDesc { surface: &surface, rates: &rates, layout: Layout::Shared, max_vertices: u32::MAX };
-        let mut triangles = chunk.indices.chunks_exact(3);
-        for patch in &chunk.patches {
-            let pattern: Pattern = desc.grid(&surface.patches[patch.patch as usize]).pattern;
-            let own = patch.first_inner..patch.first_inner + pattern.inner_count();
-            for triangle in triangles.by_ref().take(pattern.triangle_count() as usize) {
-                assert!(own.contains(&triangle[0]), "{triangle:?} of {patch:?}");
+        for surface in houses() {
+            let rates = GridRates::per_edge(&uneven(&surface), Spacing::Even);
+            let desc =
+                GridPlanDesc { surface: &surface, rates: &rates, layout: Layout::Shared, max_vertices: u32::MAX };
+            let chunk = &chunks(&surface, &rates, Layout::Shared, u32::MAX)[0];
+            let mut triangles = chunk.indices.chunks_exact(3);
+            for patch in &chunk.patches {
+                let pattern: Pattern = desc.grid(&surface.patches[patch.patch_id as usize]).pattern;
+                let own = patch.first_inner..patch.first_inner + pattern.inner_count();
+                for triangle in triangles.by_ref().take(pattern.triangle_count() as usize) {
+                    assert!(own.contains(&triangle[0]), "{triangle:?} of {patch:?}");
+                }
             }
+            assert!(triangles.next().is_none());
         }
-        assert!(triangles.next().is_none());
     }
 }

@@ -9,7 +9,7 @@ mod plan;
 mod rate;
 mod rates;
 
-pub(crate) use chunk::{Chunk, EdgeSample, GridPatch};
+pub(crate) use chunk::Chunk;
 pub(crate) use pattern::Pattern;
 pub(crate) use plan::{GridPlan, GridPlanDesc, Layout};
 pub(crate) use rate::Rate;

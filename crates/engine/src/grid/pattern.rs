@@ -46,6 +46,14 @@ impl Pattern {
         }
     }
 
+    /// Segments inside, along u and along v.
+    pub(crate) fn inner_segments(&self) -> [u32; 2] {
+        match *self {
+            Self::Quad { inner, .. } => inner,
+            Self::Triangle { inner, .. } => [inner; 2],
+        }
+    }
+
     /// Vertices on the border: one per segment.
     pub(crate) fn border_count(&self) -> u32 {
         self.sides().iter().sum()

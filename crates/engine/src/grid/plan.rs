@@ -2,12 +2,13 @@
 
 use std::ops::Range;
 
-use osculate_subdiv::{PatchRecord, SurfacePlan};
+use osculate_shaders::layout::GridPatch;
+use osculate_subdiv::{NONE, PatchRecord, SurfacePlan};
 use rayon::prelude::*;
 
 use crate::grid::chunk::{Chunk, Numbering};
 use crate::grid::rates::RateId;
-use crate::grid::{GridPatch, GridRates, Pattern};
+use crate::grid::{GridRates, Pattern};
 
 /// Who has the vertices on the border of patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -57,52 +58,62 @@ impl<'a> GridPlan<'a> {
         Self { desc, chunks }
     }
 
-    /// The patches of each chunk.
-    pub(crate) fn ranges(&self) -> &[Range<u32>] {
-        &self.chunks
-    }
-
     /// The chunks, made one at a time: the indices of a fine tessellation are large.
-    pub(crate) fn chunks(&self) -> impl Iterator<Item = Chunk> {
-        let mut numbering = Numbering::new(self.desc.surface);
-        self.chunks.iter().map(move |patches| Chunk::new(&self.desc, patches.clone(), &mut numbering))
+    pub(crate) fn into_chunks(self) -> impl Iterator<Item = Chunk> {
+        let Self { desc, chunks } = self;
+        let mut numbering = Numbering::new(desc.surface);
+        chunks.into_iter().map(move |patches| Chunk::new(&desc, patches, &mut numbering))
     }
-}
-
-/// How one patch is divided.
-pub(crate) struct PatchGrid {
-    pub(crate) pattern: Pattern,
-    sides: [RateId; 4],
-    inner: [RateId; 2],
 }
 
 impl GridPlanDesc<'_> {
-    /// How a patch is divided. Inside it is as fine as the finer of two opposite sides.
+    /// How a patch is divided: inside as finely as the finer of two opposite sides, or as the finest of three.
     pub(crate) fn grid(&self, record: &PatchRecord) -> PatchGrid {
+        if record.sides() == 3 { self.triangle(record) } else { self.quad(record) }
+    }
+
+    fn quad(&self, record: &PatchRecord) -> PatchGrid {
         let rates = self.rates;
         let sides = record.edge.map(|edge| rates.of_edge(edge / 2));
         let inner = [rates.finer(sides[0], sides[2]), rates.finer(sides[1], sides[3])];
         let segments = |id| rates.rate(id).segments();
         let pattern = Pattern::quad(sides.map(segments), inner.map(segments));
         // The pattern may want two segments where the rates have one.
-        let inner = match pattern {
-            Pattern::Quad { inner: wanted, .. } => {
-                [0, 1].map(|k| if segments(inner[k]) == wanted[k] { inner[k] } else { RateId::HALVES })
-            }
-            Pattern::Triangle { .. } => inner,
-        };
-        PatchGrid { pattern, sides, inner }
+        let plain = pattern.inner_count() == 0;
+        let inner = inner.map(|id| if plain || segments(id) > 1 { id } else { RateId::HALVES });
+        PatchGrid { pattern, side_rate: sides.map(|id| rates.word(id)), inner_rate: inner.map(|id| rates.word(id)) }
+    }
+
+    fn triangle(&self, record: &PatchRecord) -> PatchGrid {
+        let rates = self.rates;
+        let sides = [0, 1, 2].map(|k| rates.of_edge(record.edge[k] / 2));
+        let segments = |id| rates.rate(id).segments();
+        let finest = rates.finer(rates.finer(sides[0], sides[1]), sides[2]);
+        let pattern = Pattern::triangle(sides.map(segments), segments(finest));
+        let [a, b, c] = sides.map(|id| rates.word(id));
+        // Equal segments need no parameters.
+        PatchGrid { pattern, side_rate: [a, b, c, 0], inner_rate: [pattern.inner_segments()[0]; 2] }
     }
 }
 
+/// How one patch is divided.
+pub(crate) struct PatchGrid {
+    pub(crate) pattern: Pattern,
+    side_rate: [u32; 4],
+    inner_rate: [u32; 2],
+}
+
 impl PatchGrid {
-    /// What the kernels know of it.
-    pub(crate) fn record(&self, rates: &GridRates, patch: u32, first_inner: u32) -> GridPatch {
+    /// What the kernels know of it, its vertices not numbered yet.
+    pub(crate) fn record(&self, patch_id: u32) -> GridPatch {
         GridPatch {
-            patch,
-            first_inner,
-            sides: self.sides.map(|id| rates.word(id)),
-            inner: self.inner.map(|id| rates.word(id)),
+            patch_id,
+            owned: 0,
+            first_inner: NONE,
+            side_rate: self.side_rate,
+            inner_rate: self.inner_rate,
+            corner_vertex: [NONE; 4],
+            side_vertex: [NONE; 4],
         }
     }
 }

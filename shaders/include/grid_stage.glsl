@@ -1,0 +1,135 @@
+// The compute evaluator's counterpart of evaluation_stage.glsl: one workgroup per patch. Its threads make the control points once, by the basis of the control
+// stage, then share the patch's vertices. A kernel includes this, its grid, its basis and its form. Define CONTROL_POINTS, the most that are made here, before
+// the include.
+#ifndef GRID_STAGE_GLSL
+#define GRID_STAGE_GLSL
+#include "grid.glsl"
+#include "kernel_push.glsl"
+#include "points.glsl"
+#include "coefficients.glsl"
+#include "bases/net.glsl"
+#include "forms/form.glsl"
+#include "measure.glsl"
+
+layout(local_size_x = GRID_GROUP_SIZE) in;
+
+layout(std430, set = 0, binding = BINDING_GRID_VERTICES) writeonly buffer GridVertices { uint grid_vertices[]; };
+
+shared vec3 shared_control[CONTROL_POINTS];
+
+// The patch at hand.
+GridPatch grid;
+
+// From the grid: number of sides, places on them and inside, which are numbered row by row.
+uint side_count();
+vec2 side_uv(uint side, float along, float back);
+uint inner_count(GridPatch grid);
+vec2 inner_uv(GridPatch grid, uint i);
+
+vec3 net_point_at(uint i) {
+    return load_point(nets[patches[grid.patch_id].net + i]);
+}
+
+// From the kernel: how many control points the basis makes.
+uint control_count();
+
+// From the basis.
+vec3 change_basis(uint point, uint basis, uint net_size);
+
+bool is_stored() {
+    return (patches[grid.patch_id].tag & TAG_STORED) != 0u;
+}
+
+vec3 control(uint i) {
+    return is_stored() ? stored_vector(patches[grid.patch_id].net + i) : shared_control[i];
+}
+
+void make_control_points() {
+    if (!is_stored()) {
+        PatchRecord p = patches[grid.patch_id];
+        for (uint i = gl_LocalInvocationIndex; i < control_count(); i += GRID_GROUP_SIZE) {
+            shared_control[i] = change_basis(i, p.basis, p.net_size);
+        }
+    }
+    barrier();
+}
+
+void store_vector(uint at, vec3 v) {
+    grid_vertices[at] = floatBitsToUint(v.x);
+    grid_vertices[at + 1u] = floatBitsToUint(v.y);
+    grid_vertices[at + 2u] = floatBitsToUint(v.z);
+}
+
+// Evaluates the vertex with that number at (u,v).
+void write_vertex(uint number, vec2 uv) {
+    uint id = grid.patch_id;
+    SurfacePoint point;
+    InnerPoint inner = InnerPoint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+    bool is_shared = shared_point(id, uv, point);
+    if (!is_shared || frame.shade == SHADE_WIREFRAME) {
+        inner = inner_point(id, uv);
+    }
+    if (!is_shared) {
+        point = SurfacePoint(inner.position, unit_or_zero(inner.plane));
+    }
+    vec2 segments = vec2(rate_segments(grid.inner_rate[0]), rate_segments(grid.inner_rate[1]));
+    vec2 measure = frame.shade == SHADE_NONE ? uv : shade_measure(id, uv, inner, segments);
+    uint at = GRID_VERTEX_WORDS * number;
+    store_vector(at, point.position);
+    store_vector(at + 3u, point.normal);
+    grid_vertices[at + 6u] = floatBitsToUint(measure.x);
+    grid_vertices[at + 7u] = floatBitsToUint(measure.y);
+    grid_vertices[at + 8u] = id;
+}
+
+// Which vertex of the patch a thread is at.
+struct GridVertex {
+    vec2 uv;
+    uint number;
+    // Whether it is this patch that evaluates it.
+    bool owned;
+};
+
+// Vertex `i` of the border, counter-clockwise from corner 0. Parameters mirror each other without rounding, so nothing is computed here.
+GridVertex border_vertex(uint i) {
+    uint side = 0u;
+    while (i >= rate_segments(grid.side_rate[side])) {
+        i -= rate_segments(grid.side_rate[side]);
+        ++side;
+    }
+    uint rate = grid.side_rate[side];
+    uint last = rate_segments(rate);
+    GridVertex vertex;
+    vertex.uv = side_uv(side, rate_parameter(rate, i), rate_parameter(rate, last - i));
+    bool flipped = (patches[grid.patch_id].edge[side] & 1u) == 1u;
+    vertex.number = i == 0u ? grid.corner_vertex[side] : grid.side_vertex[side] + (flipped ? last - i : i) - 1u;
+    vertex.owned = ((grid.owned >> (i == 0u ? side : GRID_OWNED_SIDES + side)) & 1u) == 1u;
+    return vertex;
+}
+
+// All vertices of one patch.
+void write_patch() {
+    uint index = gl_WorkGroupID.x + gl_WorkGroupID.y * GROUPS_X;
+    if (index >= kernel.count) {
+        return;
+    }
+    grid = grid_patches[kernel.first + index];
+    make_control_points();
+    uint border = 0u;
+    for (uint side = 0u; side < side_count(); ++side) {
+        border += rate_segments(grid.side_rate[side]);
+    }
+    for (uint i = gl_LocalInvocationIndex; i < border + inner_count(grid); i += GRID_GROUP_SIZE) {
+        GridVertex vertex;
+        if (i < border) {
+            vertex = border_vertex(i);
+        } else {
+            vertex = GridVertex(inner_uv(grid, i - border), grid.first_inner + i - border, true);
+        }
+        if (vertex.owned) {
+            write_vertex(vertex.number, vertex.uv);
+        }
+    }
+}
+
+#endif
