@@ -54,6 +54,8 @@
 #define SHADE_ZEBRA 5
 #define SHADE_CURVATURE 6
 #define SHADE_PEER 7
+#define SHADE_REFLECTION 8
+#define SHADE_GAUSSIAN 9
 
 // Specialization constants.
 #define SPEC_NET_SIZE 0

@@ -20,8 +20,8 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
     uint factor_mode;
     // SHADE_*
     uint shade;
-    // Scale of curvature in its colour map: length in cage space whose inverse saturates.
-    float curvature_length;
+    // Half diagonal of the cage's box in cage space: the measure of curvatures and of what is mirrored.
+    float radius;
     // Smallest distance from the eye that adaptive factors tell apart.
     float near;
     // Width and height of the picture in pixels.

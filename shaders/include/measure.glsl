@@ -16,10 +16,17 @@ float shade_triangle_width(vec2 du, vec2 dv) {
     return longer > 0.0 ? abs(du.x * dv.y - du.y * dv.x) / longer : 0.0;
 }
 
+// Where curvature is asked for: a fifth of a segment inside a corner, for at an irregular vertex it has no limit, or not the same from all sides.
+vec2 shade_off_corner(vec2 uv, vec2 segments) {
+    vec2 inside = 0.2 / max(segments, vec2(1.0));
+    bool corner = (uv.x == 0.0 || uv.x == 1.0) && (uv.y == 0.0 || uv.y == 1.0);
+    return corner ? clamp(uv, inside, 1.0 - inside) : uv;
+}
+
 // Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Patches and valence: (u,v).
 vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
-    if (frame.shade == SHADE_CURVATURE) {
-        return shade_curvature(id, uv);
+    if (frame.shade == SHADE_CURVATURE || frame.shade == SHADE_GAUSSIAN) {
+        return shade_curvature(id, shade_off_corner(uv, segments));
     }
     if (frame.shade == SHADE_WIREFRAME) {
         vec4 clip = clip_position(p.position);

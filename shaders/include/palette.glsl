@@ -54,4 +54,30 @@ vec3 shade_patch_color(uint tag) {
     return more < 0.5 ? mix(shade_srgb(0xf6b53c), middle, 2.0 * more) : mix(middle, shade_srgb(0x7d1420), 2.0 * more - 1.0);
 }
 
+// 0 flat, -1 and 1 the ends of a scale that a curvature comes to half way where its radius is a fifth of the half diagonal of the cage's box. `bend` is
+// the curvature times that half diagonal.
+float shade_curvature_scale(float bend) {
+    float x = 0.2 * bend;
+    return x / (1.0 + abs(x));
+}
+
+// From `low` over `flat_color` to `high`, by way of a paler colour on either side.
+vec3 shade_diverging(float x, uint low, uint below, uint above, uint high) {
+    vec3 flat_color = shade_srgb(0xf4f2ee);
+    vec3 middle = shade_srgb(x > 0.0 ? above : below);
+    float t = abs(x);
+    return t < 0.5 ? mix(flat_color, middle, 2.0 * t) : mix(middle, shade_srgb(x > 0.0 ? high : low), 2.0 * t - 1.0);
+}
+
+// Mean curvature: blue hollow, white flat, red bulging as seen from outside.
+vec3 shade_mean_color(float bulge) {
+    return shade_diverging(shade_curvature_scale(bulge), 0x1f5fa8u, 0x67a9cfu, 0xef8a62u, 0xb2182bu);
+}
+
+// Gaussian curvature, by its root: violet saddles, white what is bent one way only, orange domes and bowls.
+vec3 shade_gaussian_color(float product) {
+    float bend = sign(product) * sqrt(abs(product));
+    return shade_diverging(shade_curvature_scale(bend), 0x4d2a86u, 0xa99ccdu, 0xf2b056u, 0xb0530cu);
+}
+
 #endif

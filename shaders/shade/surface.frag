@@ -5,6 +5,7 @@
 #include "records.glsl"
 #include "palette.glsl"
 #include "lighting.glsl"
+#include "mirror.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -50,32 +51,22 @@ vec3 shade_outlined(vec3 rgb, vec2 uv) {
     return rgb * (1.0 - 0.55 * max(shown.x, shown.y));
 }
 
-// Share of white in a stretch of `width` around `x` of a square wave with period 1 that is white in its second half.
-float shade_square_wave(float x, float width) {
-    vec2 ends = vec2(x - 0.5 * width, x + 0.5 * width);
-    vec2 integral = 0.5 * floor(ends) + max(fract(ends) - 0.5, 0.0);
-    return (integral.y - integral.x) / width;
-}
-
 // A room striped by height and a little by side, mirrored in the surface: breaks of the tangent plane break stripes, breaks of curvature kink them.
 vec3 shade_zebra(vec3 n, vec3 v) {
     vec3 r = reflect(-v, n);
     float phase = 2.1 * r.y + 0.7 * r.x;
-    float stripe = shade_square_wave(phase, max(fwidth(phase), 1e-4));
+    float stripe = shade_square_wave(phase, fwidth(phase), 0.5);
     vec3 rgb = mix(vec3(0.012, 0.014, 0.018), vec3(0.86, 0.86, 0.84), stripe);
     float grazing = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 4.0);
     return rgb * (0.55 + 0.45 * dot(n, v)) + 0.06 * grazing;
 }
 
-// Mean curvature: blue hollow, white flat, red bulging as seen from outside.
-vec3 shade_curvature(float bulge) {
-    float x = bulge * frame.curvature_length;
-    x = x / (1.0 + abs(x));
-    vec3 flat_color = shade_srgb(0xf4f2ee);
-    vec3 end = x > 0.0 ? shade_srgb(0xb2182b) : shade_srgb(0x1f5fa8);
-    vec3 middle = x > 0.0 ? shade_srgb(0xef8a62) : shade_srgb(0x67a9cf);
-    float t = abs(x);
-    return t < 0.5 ? mix(flat_color, middle, 2.0 * t) : mix(middle, end, 2.0 * t - 1.0);
+// A tunnel of thin light tubes mirrored in dark lacquer.
+vec3 shade_reflection(vec3 n, vec3 v) {
+    vec3 lacquer = shade_lit(vec3(0.022, 0.050, 0.078), n, v);
+    float light = shade_tubes(shade_view(position) / frame.radius, reflect(-v, n));
+    float fresnel = 0.55 + 0.45 * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 5.0);
+    return lacquer + vec3(0.96, 0.93, 0.86) * (light * fresnel);
 }
 
 void main() {
@@ -88,8 +79,10 @@ void main() {
     case SHADE_PATCHES: rgb = shade_outlined(shade_flat(shade_patch_color(tag), n, v), measure); break;
     case SHADE_VALENCE: rgb = shade_outlined(shade_flat(shade_valence_color(tag), n, v), measure); break;
     case SHADE_ZEBRA: rgb = shade_zebra(n, v); break;
+    case SHADE_REFLECTION: rgb = shade_reflection(n, v); break;
     // The derivatives bend towards the normal where the surface is hollow, so a sphere has negative mean curvature.
-    case SHADE_CURVATURE: rgb = shade_flat(shade_curvature(-measure.x), n, v); break;
+    case SHADE_CURVATURE: rgb = shade_flat(shade_mean_color(-measure.x * frame.radius), n, v); break;
+    case SHADE_GAUSSIAN: rgb = shade_flat(shade_gaussian_color(measure.y * frame.radius * frame.radius), n, v); break;
     case SHADE_PEER: rgb = shade_peer(); break;
     default: rgb = shade_lit(gl_FrontFacing ? PORCELAIN : INSIDE, n, v); break;
     }

@@ -1,4 +1,4 @@
-//! The legend of the shades `patches` and `valence` in docs/shading.md: each swatch is a patch of its kind, drawn from straight above.
+//! The legends in docs/shading.md: each swatch is a patch of its kind, or a place of its curvature, drawn from straight above.
 
 use osculate::{
     BoundaryRule, Camera, CapturedVertex, Engine, EngineError, RenderDesc, Shade, Surface, SurfaceDesc, Tessellation,
@@ -17,15 +17,22 @@ pub struct Swatch {
     pub shade: Shade,
     cage: Cage,
     rule: BoundaryRule,
-    boundary: bool,
-    edges: u32,
+    place: Place,
+}
+
+/// Where on its cage a swatch is.
+enum Place {
+    /// In the middle of a patch, at the boundary or not, with so many edges at its corner.
+    Patch { boundary: bool, edges: u32 },
+    /// In the middle of the patch that faces straight upwards.
+    Top,
 }
 
 /// Every colour of the legend.
 pub fn swatches() -> Vec<Swatch> {
     let swatch = |name: &str, shade: Shade, cage: Cage, boundary, edges| {
         let name = format!("swatch-{}-{name}", shade.name());
-        Swatch { name, shade, cage, rule: BoundaryRule::EdgeAndCorner, boundary, edges }
+        Swatch { name, shade, cage, rule: BoundaryRule::EdgeAndCorner, place: Place::Patch { boundary, edges } }
     };
     let star = |edges: u32| match edges {
         2 => zoo::pillow(),
@@ -53,8 +60,33 @@ pub fn swatches() -> Vec<Swatch> {
     }
     let round = swatch("round-corner", Shade::Patches, zoo::grid(3, 3), true, 2);
     swatches.push(Swatch { rule: BoundaryRule::EdgeOnly, ..round });
+    swatches.extend(CURVATURES.iter().map(|&(name, shade, curvatures)| Swatch {
+        name: format!("swatch-{}-{name}", shade.name()),
+        shade,
+        cage: zoo::paraboloid(curvatures),
+        rule: BoundaryRule::EdgeAndCorner,
+        place: Place::Top,
+    }));
     swatches
 }
+
+/// The swatches of curvature: name, shade, the two principal curvatures times the half diagonal of the cage's box, positive where hollow.
+const CURVATURES: [(&str, Shade, [f64; 2]); 14] = [
+    ("hollow-20", Shade::Curvature, [20.0; 2]),
+    ("hollow-5", Shade::Curvature, [5.0; 2]),
+    ("hollow-1", Shade::Curvature, [1.0; 2]),
+    ("flat", Shade::Curvature, [4.0, -4.0]),
+    ("bulging-1", Shade::Curvature, [-1.0; 2]),
+    ("bulging-5", Shade::Curvature, [-5.0; 2]),
+    ("bulging-20", Shade::Curvature, [-20.0; 2]),
+    ("saddle-20", Shade::Gaussian, [20.0, -20.0]),
+    ("saddle-5", Shade::Gaussian, [5.0, -5.0]),
+    ("saddle-1", Shade::Gaussian, [1.0, -1.0]),
+    ("flat", Shade::Gaussian, [5.0, 0.0]),
+    ("dome-1", Shade::Gaussian, [-1.0; 2]),
+    ("dome-5", Shade::Gaussian, [-5.0; 2]),
+    ("dome-20", Shade::Gaussian, [-20.0; 2]),
+];
 
 impl Swatch {
     /// The colour as it is drawn, in a picture of 32 by 20 pixels.
@@ -83,7 +115,11 @@ impl Swatch {
         let patches = &surface.plan().patches;
         let fits = |vertex: &&CapturedVertex| {
             let patch = &patches[vertex.patch as usize];
-            vertex.uv == [0.5; 2] && patch.is_boundary() == self.boundary && patch.valence() == self.edges
+            let wanted = match self.place {
+                Place::Patch { boundary, edges } => patch.is_boundary() == boundary && patch.valence() == edges,
+                Place::Top => vertex.normal[1] > 1.0 - 1e-6,
+            };
+            vertex.uv == [0.5; 2] && wanted
         };
         let mut found = None;
         let keep = |vertices: &[CapturedVertex]| {

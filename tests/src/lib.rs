@@ -4,6 +4,7 @@
 //! [`reference_folder`] and are ignored by default.
 
 pub mod exact;
+pub mod formula;
 pub mod legend;
 pub mod mutation;
 pub mod picture;

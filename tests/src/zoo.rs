@@ -87,6 +87,33 @@ pub fn grid(width: u32, depth: u32) -> Cage {
     cage(positions, &faces)
 }
 
+/// A grid of quads whose surface is `y = (kx x^2 + kz z^2) / 2` plus a constant, but for a rim: these are its curvatures, times the half diagonal of the
+/// cage's box, where x = z = 0, which is the middle of a patch. Positive ones are hollow from above, the outside.
+///
+/// The B-spline of the squares of the integers is a parabola with the same second derivative.
+pub fn paraboloid([kx, kz]: [f64; 2]) -> Cage {
+    // The box grows with the curvature; it settles in a few rounds.
+    let mut cage = paraboloid_bent([kx, kz]);
+    for _ in 0..60 {
+        let size = cage.bounds().half_diagonal();
+        cage = paraboloid_bent([kx / size, kz / size]);
+    }
+    cage
+}
+
+fn paraboloid_bent([kx, kz]: [f64; 2]) -> Cage {
+    const SIDE: u32 = 5;
+    // The middle of a quad's first child lies a quarter of the quad from its corner.
+    let coordinate = |i: u32| (f64::from(i) - f64::from(SIDE / 2) - 0.25) / f64::from(SIDE);
+    let at = |x: u32, z: u32| z * (SIDE + 1) + x;
+    let points = (0..=SIDE).flat_map(|z| (0..=SIDE).map(move |x| (coordinate(x), coordinate(z))));
+    let positions = points.map(|(x, z)| DVec3::new(x, 0.5 * (kx * x * x + kz * z * z), z)).collect();
+    let quads = (0..SIDE).flat_map(|z| (0..SIDE).map(move |x| (x, z)));
+    let faces: Vec<Vec<u32>> =
+        quads.map(|(x, z)| vec![at(x, z), at(x, z + 1), at(x + 1, z + 1), at(x + 1, z)]).collect();
+    cage(positions, &faces)
+}
+
 /// One polygon with `n` corners, bent.
 pub fn fan(n: usize) -> Cage {
     let positions = (0..n).map(|i| on_circle(i, n, 1.0, 0.2 * (i % 2) as f64)).collect();
@@ -101,6 +128,17 @@ pub fn pillow() -> Cage {
     positions.extend([DVec3::new(0.1, -0.9, 0.05), DVec3::new(-0.1, 0.9, 0.1)]);
     let mut faces: Vec<Vec<u32>> = (0..4).map(|i| vec![i, (i + 1) % 4, 4 + (i + 1) % 4, 4 + i]).collect();
     faces.extend([vec![0, 8, 2, 1], vec![2, 8, 0, 3], vec![4, 5, 6, 9], vec![6, 7, 4, 9]]);
+    cage(positions, &faces)
+}
+
+/// The shipped star of that valence bent to a saddle: what an extraordinary vertex is hardest to judge on.
+///
+/// # Panics
+/// If there is no such star.
+pub fn saddle(valence: u32) -> Cage {
+    let star = shipped(&format!("star{valence}"));
+    let positions = star.positions().iter().map(|&p| DVec3::new(p.x, 0.5 * (p.x * p.x - p.z * p.z), p.z)).collect();
+    let faces: Vec<Vec<u32>> = (0..star.face_count()).map(|f| star.face(f).to_vec()).collect();
     cage(positions, &faces)
 }
 

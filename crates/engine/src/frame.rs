@@ -7,9 +7,6 @@ use osculate_shaders::layout::Frame;
 
 use crate::{CageSpace, Camera, EngineError, Factors, Shade, Tessellation};
 
-/// Radius of curvature, as a part of the cage's half diagonal, at which the curvature colours are half way to their ends.
-const CURVATURE_LENGTH: f32 = 0.2;
-
 /// What a frame shows, before it becomes a uniform block.
 pub(crate) struct FrameDesc<'a> {
     pub(crate) space: &'a CageSpace,
@@ -45,7 +42,7 @@ impl FrameDesc<'_> {
             segments_per_length: 0.0,
             factor_mode: constant::FACTORS_UNIFORM,
             shade: self.view.map_or(constant::SHADE_NONE, |_| self.shade.constant()),
-            curvature_length: CURVATURE_LENGTH * self.radius,
+            radius: self.radius,
             near: 0.0,
             viewport: self.view.map_or([1.0; 2], |(_, size)| size.map(|pixels| pixels as f32)),
             line_color: self.line_color,

@@ -22,8 +22,12 @@ pub enum Shade {
     Wireframe,
     /// Reflected stripes.
     Zebra,
+    /// Mirrored light tubes: reflection lines.
+    Reflection,
     /// Mean curvature.
     Curvature,
+    /// Gaussian curvature.
+    Gaussian,
     /// The two-sided headlight of comparisons with other renderers, without sRGB encoding.
     Peer,
 }
@@ -37,7 +41,9 @@ impl Shade {
         Self::Valence,
         Self::Wireframe,
         Self::Zebra,
+        Self::Reflection,
         Self::Curvature,
+        Self::Gaussian,
         Self::Peer,
     ];
 
@@ -50,7 +56,9 @@ impl Shade {
             Self::Valence => "valence",
             Self::Wireframe => "wireframe",
             Self::Zebra => "zebra",
+            Self::Reflection => "reflection",
             Self::Curvature => "curvature",
+            Self::Gaussian => "gaussian",
             Self::Peer => "peer",
         }
     }
@@ -64,7 +72,9 @@ impl Shade {
             Self::Valence => constant::SHADE_VALENCE,
             Self::Wireframe => constant::SHADE_WIREFRAME,
             Self::Zebra => constant::SHADE_ZEBRA,
+            Self::Reflection => constant::SHADE_REFLECTION,
             Self::Curvature => constant::SHADE_CURVATURE,
+            Self::Gaussian => constant::SHADE_GAUSSIAN,
             Self::Peer => constant::SHADE_PEER,
         }
     }

@@ -82,8 +82,8 @@ shared_structs! {
         pub factor_mode: u32,
         /// What the fragment stage shows: a `SHADE_*` constant.
         pub shade: u32,
-        /// Length in cage space whose inverse saturates the curvature colours.
-        pub curvature_length: f32,
+        /// Half diagonal of the cage's box in cage space: the measure of curvatures and of what is mirrored.
+        pub radius: f32,
         /// Smallest distance from the eye that adaptive factors tell apart.
         pub near: f32,
         /// Width and height of the picture in pixels.

@@ -68,7 +68,7 @@ enum ShadeArg {
     Lit,
     /// The unit normal as a colour: red, green, blue are 0.5 + 0.5 n.
     Normals,
-    /// The patches by kind: off-white and blue are bicubic and exact, other colours are Gregory patches by valence.
+    /// The patches by kind: off-white and blue are bicubic and exact, other colours are the scheme's patches by valence.
     Patches,
     /// The patches by the valence of their irregular vertex; paler where regular at a boundary.
     Valence,
@@ -76,8 +76,12 @@ enum ShadeArg {
     Wireframe,
     /// Reflected stripes: they break where the surface has an edge, and kink where curvature jumps.
     Zebra,
+    /// Mirrored light tubes, thin and parallel: lines break at edges, kink where curvature jumps, and waver where it does.
+    Reflection,
     /// Mean curvature: white is flat, red bulges, blue is hollow.
     Curvature,
+    /// Gaussian curvature: white is flat or bent one way only, orange is a dome or a bowl, violet a saddle.
+    Gaussian,
     /// A two-sided headlight without sRGB encoding, for comparisons with other renderers.
     Peer,
 }
@@ -91,7 +95,9 @@ impl From<ShadeArg> for Shade {
             ShadeArg::Valence => Self::Valence,
             ShadeArg::Wireframe => Self::Wireframe,
             ShadeArg::Zebra => Self::Zebra,
+            ShadeArg::Reflection => Self::Reflection,
             ShadeArg::Curvature => Self::Curvature,
+            ShadeArg::Gaussian => Self::Gaussian,
             ShadeArg::Peer => Self::Peer,
         }
     }
