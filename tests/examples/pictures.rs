@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use osculate::{Camera, Device, DeviceDesc, Engine, RenderDesc, Shade, Tessellation};
+use osculate::{Camera, Device, DeviceDesc, Engine, RenderDesc, Scheme, Shade, Tessellation};
 use osculate_compare::Picture;
 use osculate_tests::{legend, picture, zoo};
 
@@ -14,10 +14,17 @@ fn main() {
         write(&format!("shade-{}", shade.name()), &dragon(&engine, [288, 240], |desc| show(desc, shade)));
     }
     write("cage", &dragon(&engine, [288, 240], |desc| desc.cage = true));
+    for (&scheme, shade) in Scheme::ALL.iter().flat_map(|scheme| SCHEME_SHADES.map(|shade| (scheme, shade))) {
+        let close = picture::close_up(&engine, "saddle8", scheme, shade, [280, 280]);
+        write(&format!("scheme-{scheme}-{}", shade.name()), &close);
+    }
     for swatch in legend::swatches() {
         write(&swatch.name, &swatch.draw(&engine));
     }
 }
+
+/// What docs/schemes.md shows of each scheme.
+const SCHEME_SHADES: [Shade; 3] = [Shade::Zebra, Shade::Reflection, Shade::Gaussian];
 
 /// What the command line of docs/shading.md shows in that shade.
 fn show(desc: &mut RenderDesc, shade: Shade) {

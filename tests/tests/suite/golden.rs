@@ -1,9 +1,9 @@
 //! Pictures against their goldens: equal spacing at integer levels only. What a picture shows that numbers can judge stands in `pictures`.
 
-use osculate::{BoundaryRule, Cage, Engine, RenderDesc, Shade, Surface, SurfaceDesc, Tessellation};
+use osculate::{BoundaryRule, Cage, Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, Tessellation};
 use osculate_compare::{GoldenError, Goldens, Limits, Picture, load};
 use osculate_tests::mutation::{Mutation, mutated};
-use osculate_tests::picture::{Gallery, camera, draw, draw_surfaces};
+use osculate_tests::picture::{Gallery, camera, close_up, draw, draw_surfaces};
 use osculate_tests::{gpu, gpu_with_shaders, legend, zoo};
 
 const SIZE: [u32; 2] = [256, 256];
@@ -111,6 +111,32 @@ fn faces_of_any_size_and_vertices_of_any_valence() {
 }
 
 #[test]
+fn schemes_about_extraordinary_vertices() {
+    use Scheme::{Biseptic, Gregory1, Gregory2, Stam};
+    use Shade::{Gaussian, Lit, Reflection, Zebra};
+    const PICTURES: [(&str, &[Scheme], &[Shade]); 9] = [
+        ("star3", &[Stam, Biseptic], &[Reflection]),
+        ("star5", &[Stam, Biseptic], &[Zebra, Gaussian]),
+        ("saddle8", &[Gregory1, Gregory2, Stam, Biseptic], &[Zebra, Reflection]),
+        ("saddle12", &[Gregory2, Stam, Biseptic], &[Zebra, Gaussian]),
+        ("fan", &[Stam], &[Reflection, Gaussian]),
+        ("shell", &[Stam], &[Lit, Zebra]),
+        ("pole", &[Stam], &[Zebra]),
+        ("triangles", &[Gregory1, Stam, Biseptic], &[Reflection]),
+        ("dragon", &[Stam, Biseptic], &[Lit, Gaussian]),
+    ];
+    let gpu = gpu();
+    let mut gallery = Gallery::new(&gpu);
+    for (name, schemes, shades) in PICTURES {
+        for (&scheme, &shade) in schemes.iter().flat_map(|scheme| shades.iter().map(move |shade| (scheme, shade))) {
+            let picture = close_up(&gpu, name, scheme, shade, SIZE);
+            gallery.check(&format!("{scheme}_{name}_{}", shade.name()), &picture);
+        }
+    }
+    gallery.finish();
+}
+
+#[test]
 fn backgrounds_and_samples() {
     let gpu = gpu();
     let mut gallery = Gallery::new(&gpu);
@@ -210,7 +236,7 @@ fn the_legend_is_true() {
 #[test]
 fn colours_of_the_legend_are_distinct() {
     let gpu = gpu();
-    for shade in [Shade::Patches, Shade::Valence] {
+    for shade in [Shade::Patches, Shade::Valence, Shade::Curvature, Shade::Gaussian] {
         let swatches: Vec<_> = legend::swatches().into_iter().filter(|swatch| swatch.shade == shade).collect();
         let colours: Vec<_> = swatches.iter().map(|swatch| swatch.draw(&gpu).pixels().next().unwrap()).collect();
         for (i, a) in colours.iter().enumerate() {
