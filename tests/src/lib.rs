@@ -9,6 +9,7 @@ pub mod legend;
 pub mod mutation;
 pub mod picture;
 pub mod stars;
+pub mod whole;
 pub mod zoo;
 
 use std::path::PathBuf;

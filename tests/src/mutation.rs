@@ -22,7 +22,7 @@ impl Mutation {
     }
 }
 
-/// All stages that draw, compiled with the mutations.
+/// All stages that draw, and the kernels of records, compiled with the mutations.
 ///
 /// # Panics
 /// If a mutation does not fit its file, or the changed shaders do not compile, or no shader comes out different.
@@ -35,8 +35,9 @@ pub fn mutated(mutations: &[Mutation]) -> ShaderSet {
     let mut set = ShaderSet::embedded();
     let mut different = 0;
     let drawing =
-        |path: &str| path.starts_with("patch/") || path.starts_with("evaluate/") || path.starts_with("shade/");
-    for shader in SHADERS.iter().filter(|shader| drawing(shader.path)) {
+        |path: &str| ["patch/", "evaluate/", "records/", "shade/"].iter().any(|folder| path.starts_with(folder));
+    let reads = |path: &str| mutations.iter().any(|mutation| reads(path, mutation.path));
+    for shader in SHADERS.iter().filter(|shader| drawing(shader.path) && reads(shader.path)) {
         let text = load(shader.path).expect("an embedded shader has its source");
         let desc = CompileDesc {
             name: shader.path,
@@ -52,4 +53,18 @@ pub fn mutated(mutations: &[Mutation]) -> ShaderSet {
     }
     assert!(different > 0, "the mutations change no shader");
     set
+}
+
+/// Whether the text of a file contains that of another, by whatever way of includes.
+fn reads(path: &str, other: &str) -> bool {
+    let folder = path.rsplit_once('/').map_or("", |(folder, _)| folder);
+    let places = |name: &str| {
+        let folders = std::iter::once(folder).chain(INCLUDE_DIRS.iter().copied());
+        let joined = folders.map(|folder| if folder.is_empty() { name.to_owned() } else { format!("{folder}/{name}") });
+        joined.collect::<Vec<String>>()
+    };
+    let text = source(path).unwrap_or_else(|| panic!("there is no shader file {path}"));
+    let names = text.lines().filter_map(|line| line.strip_prefix("#include \"")?.strip_suffix('"'));
+    let mut included = names.filter_map(|name| places(name).into_iter().find(|path| source(path).is_some()));
+    path == other || included.any(|path| reads(&path, other))
 }

@@ -8,3 +8,4 @@ mod pictures;
 mod sampling;
 mod subdivision;
 mod watertight;
+mod whole;

@@ -16,8 +16,12 @@ fn tangent_planes_agree_across_every_edge() {
     let mut compared = 0;
     for Specimen { name, cage } in zoo::all() {
         for &rule in rules_of(&cage) {
-            let Some(surface) = surface_of(&gpu, &cage, Scheme::Gregory2, Some(rule)) else { continue };
-            compared += assert_same_normals(&format!("{name}, {rule:?}"), &cage, &surface, PatchForm::Gregory);
+            for scheme in [Scheme::Gregory1, Scheme::Gregory2] {
+                let Some(surface) = surface_of(&gpu, &cage, scheme, Some(rule)) else { continue };
+                for form in [PatchForm::Gregory, PatchForm::Triangle] {
+                    compared += assert_same_normals(&format!("{name}, {scheme}, {rule:?}"), &cage, &surface, form);
+                }
+            }
         }
     }
     assert!(compared > 50_000, "only {compared} points compared");

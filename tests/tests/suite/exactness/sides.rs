@@ -20,7 +20,11 @@ const NORMAL: [f64; 2] = [1e-5, 8.0];
 /// If normals differ.
 pub(super) fn assert_same_normals(name: &str, cage: &Cage, surface: &Surface, form: PatchForm) -> usize {
     let on_sides = |patch_id: u32| {
-        let at = move |t: f32| [(t, 0.0), (1.0, t), (t, 1.0), (0.0, t)];
+        // Opposite corner 0 of a triangle coordinates sum to 1 exactly.
+        let at = move |t: f32| match form {
+            PatchForm::Triangle => vec![(t, 0.0), (1.0 - t, 1.0 - (1.0 - t)), (0.0, t)],
+            _ => vec![(t, 0.0), (1.0, t), (t, 1.0), (0.0, t)],
+        };
         PARAMETERS.into_iter().flat_map(at).map(move |(u, v)| SampleRequest { patch_id, u, v })
     };
     let of_form = (0..).zip(&surface.plan().patches).filter(|(_, record)| record.kind().form() == form);
