@@ -14,6 +14,8 @@ pub use error::{CompileError, Diagnostic};
 pub use include::Folder;
 pub use stage::Stage;
 
+use std::sync::OnceLock;
+
 use include::Resolver;
 use shaderc::{CompileOptions, Compiler, EnvVersion, OptimizationLevel, SpirvVersion, TargetEnv};
 
@@ -47,8 +49,7 @@ pub fn compile(desc: &CompileDesc) -> Result<Vec<u32>, CompileError> {
     let resolver = Resolver::new(desc.include_dirs, desc.load);
     let options = options(desc, &resolver)?;
     reject_nul(desc)?;
-    let artifact = Compiler::new()
-        .map_err(CompileError::from_shaderc)?
+    let artifact = compiler()?
         .compile_into_spirv(desc.source, stage.kind(), desc.name, "main", Some(&options))
         .map_err(CompileError::from_shaderc)?;
     Ok(artifact.as_binary().to_vec())
@@ -61,11 +62,18 @@ pub fn list_includes(desc: &CompileDesc) -> Result<Vec<String>, CompileError> {
     let resolver = Resolver::new(desc.include_dirs, desc.load);
     let options = options(desc, &resolver)?;
     reject_nul(desc)?;
-    Compiler::new()
-        .map_err(CompileError::from_shaderc)?
-        .preprocess(desc.source, desc.name, "main", Some(&options))
-        .map_err(CompileError::from_shaderc)?;
+    compiler()?.preprocess(desc.source, desc.name, "main", Some(&options)).map_err(CompileError::from_shaderc)?;
     Ok(resolver.loaded())
+}
+
+/// The compiler of this process. With the last one goes all that glslang knows of built-in functions, and the next compilation takes several times as long.
+fn compiler() -> Result<&'static Compiler, CompileError> {
+    static COMPILER: OnceLock<Compiler> = OnceLock::new();
+    if let Some(compiler) = COMPILER.get() {
+        return Ok(compiler);
+    }
+    let compiler = Compiler::new().map_err(CompileError::from_shaderc)?;
+    Ok(COMPILER.get_or_init(|| compiler))
 }
 
 fn options<'a>(desc: &CompileDesc, resolver: &'a Resolver) -> Result<CompileOptions<'a>, CompileError> {
