@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use glam::{DVec3, Vec3};
-use osculate::{Place, Surface};
+use osculate::{CapturedVertex, EngineError, Place, Surface, Tessellation};
 use osculate_shaders::constant::SAMPLE_FLOATS;
 use osculate_shaders::layout::SampleRequest;
 use osculate_subdiv::{PatchKind, PatchRecord};
@@ -85,4 +85,18 @@ pub fn some_patches(surface: &Surface, limit: usize, wanted: impl Fn(&PatchRecor
 pub fn requests(patches: &[u32], parameters: &[f32]) -> Vec<SampleRequest> {
     let grid = || parameters.iter().flat_map(|&v| parameters.iter().map(move |&u| (u, v)));
     patches.iter().flat_map(|&patch_id| grid().map(move |(u, v)| SampleRequest { patch_id, u, v })).collect()
+}
+
+/// All vertices of a surface's triangles as they are drawn.
+///
+/// # Panics
+/// If the device fails.
+pub fn captured(surface: &Surface, tessellation: &Tessellation) -> Vec<CapturedVertex> {
+    let mut all = Vec::new();
+    let keep = |vertices: &[CapturedVertex]| {
+        all.extend_from_slice(vertices);
+        Ok::<(), EngineError>(())
+    };
+    surface.capture(tessellation, keep).unwrap_or_else(|error| panic!("{error}"));
+    all
 }

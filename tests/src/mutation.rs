@@ -22,7 +22,7 @@ impl Mutation {
     }
 }
 
-/// All stages that draw, and the kernels of records, compiled with the mutations.
+/// The shaders that the mutations reach, compiled with them; the others as they are.
 ///
 /// # Panics
 /// If a mutation does not fit its file, or the changed shaders do not compile, or no shader comes out different.
@@ -34,10 +34,8 @@ pub fn mutated(mutations: &[Mutation]) -> ShaderSet {
     };
     let mut set = ShaderSet::embedded();
     let mut different = 0;
-    let drawing =
-        |path: &str| ["patch/", "evaluate/", "records/", "shade/"].iter().any(|folder| path.starts_with(folder));
     let reads = |path: &str| mutations.iter().any(|mutation| reads(path, mutation.path));
-    for shader in SHADERS.iter().filter(|shader| drawing(shader.path) && reads(shader.path)) {
+    for shader in SHADERS.iter().filter(|shader| reads(shader.path)) {
         let text = load(shader.path).expect("an embedded shader has its source");
         let desc = CompileDesc {
             name: shader.path,

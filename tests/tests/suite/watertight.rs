@@ -162,12 +162,22 @@ fn sabotaged(
     tessellation: impl Fn(&Cage) -> Tessellation,
     noticed: impl Fn(&CheckReport) -> bool,
 ) {
+    sabotaged_schemes(&[Scheme::Gregory2], mutations, tessellation, noticed);
+}
+
+/// The same in some schemes.
+fn sabotaged_schemes(
+    schemes: &[Scheme],
+    mutations: &[Mutation],
+    tessellation: impl Fn(&Cage) -> Tessellation,
+    noticed: impl Fn(&CheckReport) -> bool,
+) {
     let gpu = gpu_with_shaders(mutated(mutations));
-    for name in ["twohole", "dragon"] {
+    for (name, &scheme) in ["twohole", "dragon"].iter().flat_map(|name| schemes.iter().map(move |s| (name, s))) {
         let cage = zoo::shipped(name);
-        let surface = surface(&gpu, &cage, None).unwrap();
+        let surface = surface_of(&gpu, &cage, scheme, None).unwrap();
         let report = check(&surface, &tessellation(&cage)).unwrap();
-        assert!(!report.is_watertight() && noticed(&report), "{name}: the check did not notice: {report:?}");
+        assert!(!report.is_watertight() && noticed(&report), "{name}, {scheme}: the check did not notice: {report:?}");
     }
 }
 
@@ -221,6 +231,63 @@ fn a_normal_of_the_patch_on_an_edge_is_noticed() {
         to: "    bool on_record = shared_point(id, uv, point);\n    point.normal = unit_or_zero(inner.plane);\n    if (!on_record) {\n        point = SurfacePoint",
     };
     sabotaged(&[mutation], |_| level(5.0, Spacing::Equal), |report| report.split_normals > 0 && report.open == 0);
+}
+
+/// Schemes that have spoke records.
+const WITH_SPOKES: [Scheme; 2] = [Scheme::Stam, Scheme::Biseptic];
+
+/// Both forms with spokes, with the expression `to_stam` or `to_biseptic` in place of the spoke's point.
+fn with_spokes(to_stam: &'static str, to_biseptic: &'static str) -> [Mutation; 2] {
+    [
+        Mutation {
+            path: "include/forms/stam.glsl",
+            from: "return is_spoke(side) ? stam_spoke_point(spoke_of(id, side), spoke_parameter(side, uv))",
+            to: to_stam,
+        },
+        Mutation {
+            path: "include/forms/biseptic.glsl",
+            from: "return is_spoke(side) ? biseptic_spoke_point(spoke_of(id, side), spoke_parameter(side, uv))",
+            to: to_biseptic,
+        },
+    ]
+}
+
+#[test]
+fn spokes_evaluated_from_patches_are_noticed() {
+    let own = "InnerPoint p = inner_point(id, uv);
+        return is_spoke(side) ? SurfacePoint(p.position, unit_or_zero(p.plane))";
+    let noticed = |report: &CheckReport| report.split_positions > 0 && report.split_normals > 0;
+    sabotaged_schemes(&WITH_SPOKES, &with_spokes(own, own), |_| level(5.0, Spacing::Equal), noticed);
+}
+
+#[test]
+fn a_normal_of_the_patch_on_a_spoke_is_noticed() {
+    let mutations = with_spokes(
+        "vec3 position = stam_spoke_point(spoke_of(id, side), spoke_parameter(side, uv)).position;
+        return is_spoke(side) ? SurfacePoint(position, unit_or_zero(inner_point(id, uv).plane))",
+        "vec3 position = biseptic_spoke_point(spoke_of(id, side), spoke_parameter(side, uv)).position;
+        return is_spoke(side) ? SurfacePoint(position, unit_or_zero(inner_point(id, uv).plane))",
+    );
+    let noticed = |report: &CheckReport| report.split_normals > 0 && report.open == 0;
+    sabotaged_schemes(&WITH_SPOKES, &mutations, |_| level(5.0, Spacing::Equal), noticed);
+}
+
+#[test]
+fn a_spoke_walked_towards_the_vertex_by_one_patch_is_noticed() {
+    let mutation = Mutation {
+        path: "include/spokes.glsl",
+        from: "return side == 0u ? uv.x : uv.y;",
+        to: "return side == 0u ? uv.x : 1.0 - uv.y;",
+    };
+    let noticed = |report: &CheckReport| report.split_positions > 0 && report.open > 0;
+    sabotaged_schemes(&WITH_SPOKES, &[mutation], |_| level(5.0, Spacing::Equal), noticed);
+}
+
+#[test]
+fn a_spoke_that_one_patch_reads_from_the_cubic_record_is_noticed() {
+    let mutation =
+        Mutation { path: "include/spokes.glsl", from: "return side == 0u || side == 3u;", to: "return side == 0u;" };
+    sabotaged_schemes(&WITH_SPOKES, &[mutation], |_| level(5.0, Spacing::Equal), |report| report.split_positions > 0);
 }
 
 #[test]

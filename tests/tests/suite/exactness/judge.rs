@@ -67,25 +67,30 @@ impl<'a> Judge<'a> {
         (0..4).map(height).fold(f64::INFINITY, f64::min)
     }
 
-    /// # Panics
-    /// If the device is further from the exact surface than it may be.
-    pub(super) fn assert_same(&self, pair: &Pair, face_size: f64) {
+    /// What is wrong with a point of the device, if it is further from the exact surface than it may be.
+    pub(super) fn judge(&self, pair: &Pair, face_size: f64) -> Result<(), String> {
         let Pair { request, device, exact, .. } = pair;
         let record = &self.surface.plan().patches[request.patch_id as usize];
         let name = || format!("{}, {:?} of valence {}, {request:?}", self.name, record.kind(), record.valence());
-        let error = (device.position - exact.position).length() / self.box_size;
-        assert!(error < POSITION, "{}: position is off by {error:e} of the box", name());
+        let within = |what: &str, error: f64, allowed: f64| {
+            // Not a number is off, too.
+            if error < allowed {
+                Ok(())
+            } else {
+                Err(format!("{}: {what} off by {error:e}, allowed {allowed:e}", name()))
+            }
+        };
+        within("position is", (device.position - exact.position).length(), POSITION * self.box_size)?;
         if !pair.irregular {
             let error = (device.du - exact.du).length().max((device.dv - exact.dv).length());
-            let allowed = DERIVATIVE[0] * self.box_size + DERIVATIVE[1] * exact.du.length().max(exact.dv.length());
-            assert!(error < allowed, "{}: derivatives are off by {error:e}, allowed {allowed:e}", name());
+            let length = exact.du.length().max(exact.dv.length());
+            within("derivatives are", error, DERIVATIVE[0] * self.box_size + DERIVATIVE[1] * length)?;
         }
         if exact.normal == DVec3::ZERO {
-            return;
+            return Ok(());
         }
         let turn = if record.valence() > MANY { TURN_OF_MANY } else { TURN };
         let allowed = NORMAL + turn * f64::from(f32::EPSILON) * self.largest / face_size;
-        let error = (device.normal - exact.normal).length();
-        assert!(error < allowed, "{}: normal is off by {error:e}, allowed {allowed:e}", name());
+        within("normal is", (device.normal - exact.normal).length(), allowed)
     }
 }

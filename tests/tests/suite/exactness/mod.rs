@@ -3,5 +3,6 @@
 mod biseptic;
 mod gregory;
 mod judge;
+mod sabotage;
 mod sides;
 mod stam;
