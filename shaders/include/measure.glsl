@@ -19,11 +19,10 @@ float shade_triangle_width(vec2 du, vec2 dv) {
 // Where curvature is asked for: a fifth of a segment inside a corner, for at an irregular vertex it has no limit, or not the same from all sides.
 vec2 shade_off_corner(vec2 uv, vec2 segments) {
     vec2 inside = 0.2 / max(segments, vec2(1.0));
-    bool corner = (uv.x == 0.0 || uv.x == 1.0) && (uv.y == 0.0 || uv.y == 1.0);
-    return corner ? clamp(uv, inside, 1.0 - inside) : uv;
+    return corner_of(uv) != 4u ? clamp(uv, inside, 1.0 - inside) : uv;
 }
 
-// Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Patches and valence: (u,v).
+// Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Others: what patches are outlined by.
 vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
     if (frame.shade == SHADE_CURVATURE || frame.shade == SHADE_GAUSSIAN) {
         return shade_curvature(id, shade_off_corner(uv, segments));
@@ -33,7 +32,7 @@ vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
         vec2 step = 1.0 / max(segments, vec2(1.0));
         return vec2(shade_triangle_width(shade_pixels(clip, p.du * step.x), shade_pixels(clip, p.dv * step.y)), 0.0);
     }
-    return uv;
+    return shade_outline(uv);
 }
 
 #endif

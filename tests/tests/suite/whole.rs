@@ -268,6 +268,7 @@ fn pictures_of_whole_faces() {
     let shell = cut_some_quads(&zoo::shipped("shell"));
     picture("triangles", &zoo::shipped("triangles"), [1.0, 0.75, 1.5], Shade::Lit);
     picture("mixed", &mixed, [0.7, 0.5, 1.5], Shade::Normals);
+    picture("mixed_patches", &mixed, [0.7, 0.5, 1.5], Shade::Patches);
     picture("open", &shell, [0.8, 1.0, 1.2], Shade::Lit);
     picture("valence_64", &zoo::shipped("uvsphere"), [0.25, 1.0, 0.6], Shade::Lit);
     gallery.finish();

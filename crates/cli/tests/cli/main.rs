@@ -9,3 +9,4 @@ mod inspect;
 mod render;
 mod sample;
 mod support;
+mod whole;
