@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use crate::listed::numbered;
-use crate::{GltfError, Listed, ObjError, TagError, TopologyError};
+use crate::{GltfError, LimitError, Listed, ObjError, OffError, PlyError, TagError, TopologyError};
 
 /// Why a [`CageDesc`](crate::CageDesc) is not a cage. Indices count from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -46,6 +46,16 @@ pub enum CageError {
     /// Uv that are infinite or not a number.
     #[error("{counted} not finite: {0}", counted = .0.count("uv"))]
     UvNotFinite(Listed<u32>),
+    /// The indices in the file are not one for each element, or those of faces do not rise.
+    #[error("{sources} indices in the file for {}; there must be none, or one for each, rising for faces", crate::listed::plural(*.count, .noun))]
+    Sources {
+        /// `vertex` or `face`.
+        noun: &'static str,
+        /// How many indices there are.
+        sources: usize,
+        /// How many elements there are.
+        count: usize,
+    },
     /// The ranges of a face set are empty, do not rise, touch, or leave the faces there are.
     #[error("face set {name:?} has the range {range:?}; ranges must rise without touching within 0..{faces}")]
     FaceSet {
@@ -56,6 +66,20 @@ pub enum CageError {
         /// How many faces there are.
         faces: usize,
     },
+}
+
+impl ReadError {
+    /// The limit that the file exceeds, if that is why it was not read.
+    #[must_use]
+    pub fn limit(&self) -> Option<&LimitError> {
+        match self {
+            Self::Limit { error, .. }
+            | Self::Obj { error: ObjError::Limit(error), .. }
+            | Self::Ply { error: PlyError::Limit(error), .. }
+            | Self::Off { error: OffError::Limit(error), .. } => Some(error),
+            _ => None,
+        }
+    }
 }
 
 impl CageError {
@@ -81,7 +105,7 @@ pub enum ReadError {
         error: std::io::Error,
     },
     /// The name of the file ends in nothing we know.
-    #[error("{}: unknown kind of file; the name must end in .obj, .gltf or .glb", .file.display())]
+    #[error("{}: unknown kind of file; the name must end in .obj, .ply, .off, .gltf or .glb", .file.display())]
     UnknownFormat {
         /// The file.
         file: PathBuf,
@@ -95,6 +119,32 @@ pub enum ReadError {
         line: u32,
         /// What is wrong with it.
         error: ObjError,
+    },
+    /// A PLY file is malformed.
+    #[error("{file}: {error}")]
+    Ply {
+        /// The name of the file.
+        file: String,
+        /// What is wrong with it.
+        error: PlyError,
+    },
+    /// A line of an OFF file is malformed.
+    #[error("{file}:{line}: {error}")]
+    Off {
+        /// The name of the file.
+        file: String,
+        /// The line, from 1.
+        line: u32,
+        /// What is wrong with it.
+        error: OffError,
+    },
+    /// The file is beyond a limit of the reader.
+    #[error("{file}: {error}")]
+    Limit {
+        /// The name of the file.
+        file: String,
+        /// The limit.
+        error: LimitError,
     },
     /// A glTF file is malformed.
     #[error("{file}: {error}")]

@@ -28,7 +28,7 @@ impl FaceSets {
 
     /// All sets with faces, by kind and first face, given the number of faces.
     pub(crate) fn finish(mut self, faces: u32) -> Vec<FaceSet> {
-        for kind in [FaceSetKind::Object, FaceSetKind::Group, FaceSetKind::Material] {
+        for kind in FaceSetKind::ALL {
             self.close(kind, faces);
         }
         self.sets.retain(|set| !set.faces.is_empty());
@@ -52,6 +52,20 @@ impl FaceSets {
         for index in sets {
             extend(&mut self.sets[index].faces, since..end);
         }
+    }
+}
+
+impl FaceSet {
+    /// The same set of other faces: face `f` is what `sources[f]` was. Ranges need not be short for that, only rise.
+    pub(crate) fn gather(&self, sources: &[u32]) -> Self {
+        let mut faces = Vec::new();
+        for (f, source) in (0..).zip(sources) {
+            let next = self.faces.partition_point(|range| range.end <= *source);
+            if self.faces.get(next).is_some_and(|range| range.start <= *source) {
+                extend(&mut faces, f..f + 1);
+            }
+        }
+        Self { faces, ..self.clone() }
     }
 }
 

@@ -1,4 +1,4 @@
-//! Control cages: reading OBJ and glTF, validation, topology.
+//! Control cages: reading OBJ, PLY, OFF and glTF, repair, validation, topology.
 //!
 //! A [`Cage`] is valid by construction: a closed or open, oriented, manifold mesh of polygons with finite positions. Whatever a
 //! file holds, reading it ends in a cage or in an error that names the file, the line or the elements at fault; nothing after
@@ -9,28 +9,41 @@
 
 mod bounds;
 mod cage;
+mod creases;
+mod draft;
 mod error;
 mod face_sets;
 mod gltf;
 mod inspect;
+mod limits;
 mod listed;
 mod obj;
+mod off;
+mod ply;
 #[cfg(test)]
 mod random;
 mod read;
 mod reference;
+mod repair;
 mod tags;
+mod text;
 mod topology;
 mod warning;
 mod weld;
 
 pub use bounds::Bounds;
 pub use cage::{Cage, CageDesc, FaceSet, FaceSetKind, FaceVarying, sub_faces};
+pub use creases::CreaseDesc;
 pub use error::{CageError, ReadError};
 pub use gltf::{AccessorError, GltfError, read_gltf};
 pub use inspect::{Inspection, Problem, inspect};
+pub use limits::{LimitError, Limits};
 pub use listed::Listed;
 pub use obj::{ObjError, read_obj, write_obj};
+pub use off::{OffError, read_off};
+pub use ply::{PlyError, read_ply};
+pub use read::{FileFormat, ReadDesc};
+pub use repair::{RepairDesc, RepairReport, repair};
 pub use tags::{BoundaryRule, Corner, Crease, CreaseMethod, TagError, Tags};
 pub use topology::{EdgeFaces, FaceCorner, Fans, Ring, Topology, TopologyError};
 pub use warning::Warning;

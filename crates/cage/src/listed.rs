@@ -31,6 +31,19 @@ impl<T> Listed<T> {
         self.total == 0
     }
 
+    /// Adds all elements of another list behind these.
+    pub(crate) fn append(&mut self, other: Self) {
+        self.total += other.total - other.first.len();
+        for item in other.first {
+            self.push(item);
+        }
+    }
+
+    /// The list of what `f` makes of each element.
+    pub(crate) fn map<U>(&self, f: impl FnMut(&T) -> U) -> Listed<U> {
+        Listed { first: self.first.iter().map(f).collect(), total: self.total }
+    }
+
     /// Adds an element; only the first few are kept.
     pub fn push(&mut self, item: T) {
         if self.first.len() < Self::SHOWN {

@@ -2,22 +2,87 @@
 
 use std::path::Path;
 
-use crate::{Cage, ReadError, read_gltf, read_obj};
+use crate::{Cage, CreaseDesc, Limits, ReadError, RepairDesc, obj, off, ply, read_gltf};
+
+/// How files become cages.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReadDesc {
+    /// What is repaired before the mesh is checked; by default nothing, and what is no manifold mesh is refused.
+    pub repair: Option<RepairDesc>,
+    /// Crease tags to make from the shape and the seams of the cage; by default none.
+    pub creases: Option<CreaseDesc>,
+    /// How much a file may ask for.
+    pub limits: Limits,
+}
+
+/// Formats of cages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum FileFormat {
+    /// Wavefront OBJ.
+    Obj,
+    /// Stanford PLY.
+    Ply,
+    /// Geomview OFF.
+    Off,
+    /// glTF, in text or binary.
+    Gltf,
+}
+
+impl FileFormat {
+    /// The format of a file: what its first bytes say without doubt, else the end of its name, in any case.
+    #[must_use]
+    pub fn of(path: &Path, bytes: &[u8]) -> Option<Self> {
+        Self::of_bytes(bytes).or_else(|| Self::of_name(path))
+    }
+
+    fn of_name(path: &Path) -> Option<Self> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "obj" => Some(Self::Obj),
+            "ply" => Some(Self::Ply),
+            "off" => Some(Self::Off),
+            "gltf" | "glb" => Some(Self::Gltf),
+            _ => None,
+        }
+    }
+
+    fn of_bytes(bytes: &[u8]) -> Option<Self> {
+        let word = bytes.split(u8::is_ascii_whitespace).next().unwrap_or_default();
+        match word {
+            b"ply" => Some(Self::Ply),
+            word if word.starts_with(b"glTF") => Some(Self::Gltf),
+            word if off::is_keyword(word) => Some(Self::Off),
+            _ => None,
+        }
+    }
+}
 
 impl Cage {
-    /// Reads a cage from a file; the kind is told by the end of its name, in any case: `.obj`, `.gltf`, `.glb`.
+    /// Reads a cage from a file of any [`FileFormat`]: `.obj`, `.ply`, `.off`, `.gltf`, `.glb`.
     ///
     /// # Errors
     /// A file that cannot be read, is malformed or does not hold a cage. The message starts with the file and, where there is
     /// one, the line.
     pub fn read(path: &Path) -> Result<Self, ReadError> {
-        let extension = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
-        let bytes = || std::fs::read(path).map_err(|error| ReadError::Io { file: path.into(), error });
-        match extension.as_deref() {
-            Some("obj") => read_obj(&bytes()?, &path.display().to_string()),
-            Some("gltf" | "glb") => read_gltf(&bytes()?, &path.display().to_string(), path.parent()),
-            _ => Err(ReadError::UnknownFormat { file: path.into() }),
-        }
+        Self::read_with(path, &ReadDesc::default())
+    }
+
+    /// Reads a cage from a file, as [`Cage::read`] does, in a way that is told.
+    ///
+    /// # Errors
+    /// As [`Cage::read`], and files beyond the limits.
+    pub fn read_with(path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {
+        let name = path.display().to_string();
+        let bytes = desc.limits.read_file(path)?;
+        let draft = match FileFormat::of(path, &bytes).ok_or_else(|| ReadError::UnknownFormat { file: path.into() })? {
+            FileFormat::Obj => obj::draft(&bytes, &name, desc)?,
+            FileFormat::Ply => ply::draft(&bytes, &name, desc)?,
+            FileFormat::Off => off::draft(&bytes, &name, desc)?,
+            FileFormat::Gltf => return read_gltf(&bytes, &name, path.parent()),
+        };
+        // The text is as large as what was made of it, and no longer needed.
+        drop(bytes);
+        draft.finish(&name, desc)
     }
 }
 
@@ -36,6 +101,17 @@ mod tests {
     }
 
     #[test]
+    fn the_first_bytes_decide_before_the_name() {
+        let format = |name: &str, bytes: &str| FileFormat::of(Path::new(name), bytes.as_bytes());
+        assert_eq!(format("a.obj", "ply\nformat"), Some(FileFormat::Ply));
+        assert_eq!(format("a", "STCNOFF\n"), Some(FileFormat::Off));
+        assert_eq!(format("a.off", "8 6 12\n"), Some(FileFormat::Off));
+        assert_eq!(format("a.ply", "glTF\x02\0\0\0"), Some(FileFormat::Gltf));
+        assert_eq!(format("a.obj", "plywood"), Some(FileFormat::Obj));
+        assert_eq!(format("a.stl", "solid"), None);
+    }
+
+    #[test]
     fn messages_start_with_the_file() {
         let folder = tempfile::tempdir().expect("a folder");
         let refused = |name: &str, text: &str| {
@@ -44,9 +120,10 @@ mod tests {
             let message = Cage::read(&file).expect_err("must be refused").to_string();
             message.strip_prefix(&*file.to_string_lossy()).expect("the file comes first").to_string()
         };
-        let unknown = ": unknown kind of file; the name must end in .obj, .gltf or .glb";
+        let unknown = ": unknown kind of file; the name must end in .obj, .ply, .off, .gltf or .glb";
         assert_eq!(refused("a.stl", TRIANGLE), unknown);
         assert_eq!(refused("obj", TRIANGLE), unknown);
+        assert_eq!(refused("empty", ""), unknown);
         assert_eq!(refused("bad.obj", "f 1 2\n"), ":1: a face with 2 corners; faces have at least 3");
         assert!(refused("bad.glb", "f 1 2\n").starts_with(": not readable as glTF 2.0: "));
     }
@@ -54,7 +131,7 @@ mod tests {
     #[test]
     fn files_that_cannot_be_read() {
         let folder = tempfile::tempdir().expect("a folder");
-        for name in ["missing.obj", "missing.gltf", "missing.glb"] {
+        for name in ["missing.obj", "missing.ply", "missing.gltf", "missing"] {
             let error = Cage::read(&folder.path().join(name)).expect_err("no such file");
             assert!(matches!(error, ReadError::Io { .. }));
             assert!(error.to_string().contains(&format!("{name}: No such file")), "{error}");

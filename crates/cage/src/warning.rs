@@ -1,7 +1,7 @@
 //! What was odd about a file but did not keep it from being read.
 
-use crate::Listed;
 use crate::listed::plural;
+use crate::{Listed, RepairReport};
 
 /// Something the reader ignored, dropped or made up; the cage is valid all the same.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -33,6 +33,28 @@ pub enum Warning {
     /// Faces with corners without uv in a file where others have it; these corners got (0, 0).
     #[error("{} without uv, set to (0, 0)", plural(*.0, "face"))]
     MissingUv(usize),
+    /// Elements of a PLY file that mean nothing to a cage.
+    #[error("{count} of the element {name} ignored, which is not part of a cage")]
+    Element {
+        /// Their kind.
+        name: String,
+        /// How many there are.
+        count: u64,
+    },
+    /// Creases that were made from the shape of the cage.
+    #[error("{} made{}", plural(*.made, "crease"), already(*.tagged))]
+    CreasesMade {
+        /// How many there are.
+        made: usize,
+        /// How many edges had a tag already.
+        tagged: usize,
+    },
+    /// Creases were to be made from something that the file does not have.
+    #[error("no creases made from {0}, because the file has none")]
+    NoCreasesFrom(&'static str),
+    /// What a repair did before the mesh was checked.
+    #[error("{0}")]
+    Repaired(Box<RepairReport>),
     /// Parts of a glTF scene that mean nothing to a cage yet.
     #[error("{} ignored", plural(*.count, .what))]
     NotRead {
@@ -47,6 +69,10 @@ pub enum Warning {
     /// The nodes of a glTF scene touch in a way that is no manifold, so they were not welded to each other.
     #[error("{} welded each by itself, because together they are not manifold", plural(*.0, "node"))]
     WeldedByNode(usize),
+}
+
+fn already(tagged: usize) -> String {
+    if tagged == 0 { String::new() } else { format!(" ({} had a tag already)", plural(tagged, "edge")) }
 }
 
 fn with_corners(corners: usize) -> String {

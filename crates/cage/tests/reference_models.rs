@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use osculate_cage::{BoundaryRule, Cage, inspect, read_obj, write_obj};
+use osculate_cage::{BoundaryRule, Cage, ReadDesc, RepairDesc, Warning, inspect, read_obj, write_obj};
 
 fn root() -> PathBuf {
     let root = std::env::var_os("OSCULATE_REFERENCE").expect("OSCULATE_REFERENCE names the folder of reference data");
@@ -93,6 +93,28 @@ fn non_manifold_models_are_refused() {
     );
     let vertices = refused("opensubdiv/catmark_nonman_verts.obj");
     assert!(vertices.contains("not manifold, "), "{vertices}");
+}
+
+#[test]
+#[ignore = "needs OSCULATE_REFERENCE"]
+fn all_models_can_be_repaired() {
+    let desc = ReadDesc { repair: Some(RepairDesc::default()), ..ReadDesc::default() };
+    let read = |path: &Path| Cage::read_with(path, &desc).unwrap_or_else(|error| panic!("{error}"));
+    let is_repaired = |cage: &Cage| cage.warnings().iter().any(|warning| matches!(warning, Warning::Repaired(_)));
+    let folder = tempfile::tempdir().expect("a folder");
+    for file in models() {
+        let cage = read(&file);
+        if let Ok(plain) = Cage::read(&file) {
+            assert!(is_repaired(&cage) || cage == plain, "{}", file.display());
+        } else {
+            assert!(is_repaired(&cage), "{}", file.display());
+        }
+        let copy = folder.path().join("copy.obj");
+        let mut text = Vec::new();
+        write_obj(&cage, &mut text).expect("a vector takes everything");
+        std::fs::write(&copy, text).expect("written");
+        assert!(!is_repaired(&read(&copy)), "{}: a second repair finds something", file.display());
+    }
 }
 
 #[test]

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 pub use parts::sub_faces;
 
-use crate::{BoundaryRule, Bounds, CageError, Listed, NONE, Tags, Topology, Warning};
+use crate::{BoundaryRule, Bounds, CageError, Crease, Listed, NONE, Tags, Topology, Warning};
 
 /// Data that belongs to the corners of faces rather than to vertices, so that it may jump at a seam.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -48,6 +48,13 @@ pub enum FaceSetKind {
     Group,
     /// A material (`usemtl`).
     Material,
+    /// A smoothing group (`s`): faces whose common edges are meant to look smooth.
+    Smoothing,
+}
+
+impl FaceSetKind {
+    /// All kinds, in rising order.
+    pub const ALL: [Self; 4] = [Self::Object, Self::Group, Self::Material, Self::Smoothing];
 }
 
 /// A named set of faces.
@@ -76,8 +83,24 @@ pub struct CageDesc {
     pub tags: Tags,
     /// Groups, objects and materials.
     pub face_sets: Vec<FaceSet>,
+    /// For each vertex its index in the file, if it has another one here; empty if not.
+    pub source_vertices: Vec<u32>,
+    /// For each face its index in the file, if it has another one here; empty if not.
+    pub source_faces: Vec<u32>,
     /// What the reader has to say about the file; [`Cage::new`] adds its own.
     pub warnings: Vec<Warning>,
+}
+
+impl CageDesc {
+    /// The index of vertex `v` in the file.
+    pub(crate) fn source_vertex(&self, v: u32) -> u32 {
+        self.source_vertices.get(v as usize).copied().unwrap_or(v)
+    }
+
+    /// The index of face `f` in the file.
+    pub(crate) fn source_face(&self, f: u32) -> u32 {
+        self.source_faces.get(f as usize).copied().unwrap_or(f)
+    }
 }
 
 /// A control cage: an oriented manifold mesh of polygons, valid by construction.
@@ -88,6 +111,7 @@ pub struct CageDesc {
 pub struct Cage {
     positions: Vec<DVec3>,
     source_vertices: Vec<u32>,
+    source_faces: Vec<u32>,
     topology: Topology,
     uv: Option<FaceVarying>,
     tags: Tags,
@@ -105,7 +129,17 @@ impl Cage {
     /// # Errors
     /// Whatever keeps the description from being a manifold mesh with finite coordinates and tags that fit; the error names the elements.
     pub fn new(desc: CageDesc) -> Result<Self, CageError> {
-        let CageDesc { positions, mut face_offsets, face_vertices, uv, mut tags, face_sets, mut warnings } = desc;
+        let CageDesc {
+            positions,
+            mut face_offsets,
+            face_vertices,
+            uv,
+            mut tags,
+            face_sets,
+            source_vertices: origins,
+            source_faces,
+            mut warnings,
+        } = desc;
         if face_offsets.is_empty() {
             face_offsets.push(0);
         }
@@ -120,18 +154,21 @@ impl Cage {
         }
         check_face_sets(&face_sets, topology.face_count())?;
 
-        let (positions, source_vertices) = drop_unused_vertices(positions, &mut topology, &mut tags, &mut warnings);
+        check_sources("vertex", &origins, positions.len())?;
+        check_sources("face", &source_faces, topology.face_count())?;
+
+        let (positions, mut source_vertices) = drop_unused_vertices(positions, &mut topology, &mut tags, &mut warnings);
+        if !origins.is_empty() {
+            source_vertices.iter_mut().for_each(|v| *v = origins[*v as usize]);
+        }
         let bounds = Bounds::of(&positions);
         // Halves, because the difference of two finite numbers may overflow.
         let size = bounds.half_diagonal() * 2.0;
         if size > Self::MAX_SIZE {
             return Err(CageError::TooLarge { size });
         }
-        let ignored = tags.not_evaluated();
-        if !ignored.is_empty() {
-            warnings.push(Warning::TagsNotEvaluated(ignored));
-        }
-        Ok(Self { positions, source_vertices, topology, uv, tags, face_sets, warnings, bounds })
+        warn_of_tags(&tags, &mut warnings);
+        Ok(Self { positions, source_vertices, source_faces, topology, uv, tags, face_sets, warnings, bounds })
     }
 
     /// Positions of the vertices, in the units of the file.
@@ -171,10 +208,25 @@ impl Cage {
         self.topology.origins()
     }
 
-    /// For each vertex its index in the file, where unused vertices count too; rising.
+    /// For each vertex its index in the file, where unused vertices count too; rising, unless a repair split vertices.
     #[must_use]
     pub fn source_vertices(&self) -> &[u32] {
         &self.source_vertices
+    }
+
+    /// The index of face `f` in the file: `f` itself, unless a repair dropped faces.
+    #[must_use]
+    pub fn source_face(&self, f: u32) -> u32 {
+        self.source_faces.get(f as usize).copied().unwrap_or(f)
+    }
+
+    /// The face with index `source` in the file, if it is there; the inverse of [`Cage::source_face`].
+    #[must_use]
+    pub fn face_of_source(&self, source: u32) -> Option<u32> {
+        if self.source_faces.is_empty() {
+            return ((source as usize) < self.face_count()).then_some(source);
+        }
+        self.source_faces.binary_search(&source).ok().map(|f| f as u32)
     }
 
     /// The adjacency of the faces.
@@ -219,10 +271,25 @@ impl Cage {
         self.bounds
     }
 
+    /// Adds creases to edges that exist, and what is to be said about them.
+    pub(crate) fn add_tags(&mut self, creases: Vec<Crease>, warnings: Vec<Warning>) {
+        self.tags.creases.extend(creases);
+        self.warnings.retain(|warning| !matches!(warning, Warning::TagsNotEvaluated(_)));
+        self.warnings.extend(warnings);
+        warn_of_tags(&self.tags, &mut self.warnings);
+    }
+
     /// True if every face has four corners.
     #[must_use]
     pub fn is_quads(&self) -> bool {
         self.face_offsets().windows(2).all(|pair| pair[1] - pair[0] == 4)
+    }
+}
+
+fn warn_of_tags(tags: &Tags, warnings: &mut Vec<Warning>) {
+    let ignored = tags.not_evaluated();
+    if !ignored.is_empty() {
+        warnings.push(Warning::TagsNotEvaluated(ignored));
     }
 }
 
@@ -231,7 +298,7 @@ fn check_finite(positions: &[DVec3]) -> Result<(), CageError> {
     if bad.is_empty() { Ok(()) } else { Err(CageError::NotFinite(bad)) }
 }
 
-fn check_uv(uv: &FaceVarying, corners: usize) -> Result<(), CageError> {
+pub(crate) fn check_uv(uv: &FaceVarying, corners: usize) -> Result<(), CageError> {
     if uv.indices.len() != corners {
         return Err(CageError::UvCount { indices: uv.indices.len(), corners });
     }
@@ -243,6 +310,15 @@ fn check_uv(uv: &FaceVarying, corners: usize) -> Result<(), CageError> {
     }
     let bad: Listed<u32> = (0..).zip(&uv.values).filter(|(_, p)| !p.is_finite()).map(|(i, _)| i).collect();
     if bad.is_empty() { Ok(()) } else { Err(CageError::UvNotFinite(bad)) }
+}
+
+fn check_sources(noun: &'static str, sources: &[u32], count: usize) -> Result<(), CageError> {
+    // Vertices may have copies, faces do not.
+    let rises = noun == "vertex" || sources.is_sorted_by(|a, b| a < b);
+    if sources.is_empty() || (sources.len() == count && rises) {
+        return Ok(());
+    }
+    Err(CageError::Sources { noun, sources: sources.len(), count })
 }
 
 fn check_face_sets(sets: &[FaceSet], faces: usize) -> Result<(), CageError> {

@@ -42,6 +42,9 @@ pub enum ObjError {
     /// A face with one or two corners.
     #[error("a face with {}; faces have at least 3", crate::listed::plural(*.0, "corner"))]
     TooFewCorners(usize),
+    /// A limit of the reader.
+    #[error(transparent)]
+    Limit(#[from] crate::LimitError),
     /// More elements than 32-bit indices can name.
     #[error("too many {0} for 32-bit indices; split the model")]
     TooMany(&'static str),

@@ -1,8 +1,8 @@
 //! The corners of an `f` statement.
 
 use super::ObjError;
-use super::numbers::{integer, quoted};
 use crate::NONE;
+use crate::text::{integer, quoted};
 
 /// How many vertices and uv there are so far; negative indices count back from there.
 #[derive(Clone, Copy)]

@@ -1,12 +1,12 @@
 //! Statements of OBJ files that a cage has no use for.
 
-use super::numbers::quoted;
 use crate::Warning;
+use crate::text::quoted;
 
 /// Why the statement `name` is passed over; `None` if nothing is lost by that.
 pub(super) fn reason(name: &[u8]) -> Option<&'static str> {
     match name {
-        b"vn" | b"s" | b"mg" | b"mtllib" | b"maplib" | b"usemap" | b"lod" | b"bevel" | b"c_interp" | b"d_interp"
+        b"vn" | b"mg" | b"mtllib" | b"maplib" | b"usemap" | b"lod" | b"bevel" | b"c_interp" | b"d_interp"
         | b"shadow_obj" | b"trace_obj" => None,
         b"p" => Some("points are not part of a cage"),
         b"l" => Some("lines are not part of a cage"),

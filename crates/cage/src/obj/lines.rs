@@ -2,27 +2,15 @@
 
 use std::borrow::Cow;
 
-/// Logical lines with the number, from 1, of the physical line they start in. Lines end with LF, CR LF or CR; a backslash at the
-/// end joins the next line, except in a comment, where it is more likely a path.
-pub(super) struct Lines<'a> {
-    rest: &'a [u8],
-    next_number: u32,
-}
+use crate::text::PhysicalLines;
+
+/// Logical lines with the number, from 1, of the physical line they start in. A backslash at the end joins the next line, except
+/// in a comment, where it is more likely a path.
+pub(super) struct Lines<'a>(PhysicalLines<'a>);
 
 impl<'a> Lines<'a> {
     pub(super) fn new(text: &'a [u8]) -> Self {
-        Self { rest: text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text), next_number: 1 }
-    }
-
-    fn physical(&mut self) -> Option<&'a [u8]> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        self.next_number = self.next_number.saturating_add(1);
-        let end = self.rest.iter().position(|&b| matches!(b, b'\n' | b'\r'));
-        let (line, rest) = self.rest.split_at(end.unwrap_or(self.rest.len()));
-        self.rest = rest.strip_prefix(b"\r\n").or_else(|| rest.get(1..)).unwrap_or_default();
-        Some(line)
+        Self(PhysicalLines::new(text))
     }
 }
 
@@ -30,13 +18,13 @@ impl<'a> Iterator for Lines<'a> {
     type Item = (u32, Cow<'a, [u8]>);
 
     fn next(&mut self) -> Option<Self::Item> {
-        let number = self.next_number;
-        let mut line = Cow::Borrowed(self.physical()?);
+        let (number, line) = self.0.next()?;
+        let mut line = Cow::Borrowed(line);
         let comment = line.trim_ascii_start().starts_with(b"#");
         while !comment && line.ends_with(b"\\") {
             let joined = line.to_mut();
             joined.pop();
-            let Some(continued) = self.physical() else { break };
+            let Some((_, continued)) = self.0.next() else { break };
             joined.push(b' ');
             joined.extend_from_slice(continued);
         }

@@ -7,41 +7,31 @@ use super::ignored::{Ignored, reason};
 use super::lines::Lines;
 use super::numbers::{numbers, words};
 use super::{ObjError, tags};
+use crate::draft::{Draft, SourceLines};
 use crate::face_sets::FaceSets;
-use crate::{CageDesc, FaceSetKind, FaceVarying, NONE, Tags};
-
-/// What a text holds, and where.
-pub(super) struct Parsed {
-    pub(super) desc: CageDesc,
-    pub(super) lines: SourceLines,
-}
-
-/// The lines of elements, from 1, for messages about the mesh as a whole.
-#[derive(Default)]
-pub(super) struct SourceLines {
-    pub(super) faces: Vec<u32>,
-    pub(super) creases: Vec<u32>,
-    pub(super) corners: Vec<u32>,
-    pub(super) holes: Vec<u32>,
-}
+use crate::limits::Gauge;
+use crate::{CageDesc, FaceSetKind, FaceVarying, NONE, ReadDesc, Tags};
 
 /// An error and its line.
 type AtLine<T> = Result<T, (u32, ObjError)>;
 
-pub(super) fn parse(text: &[u8]) -> AtLine<Parsed> {
+pub(super) fn parse(text: &[u8], desc: &ReadDesc) -> AtLine<Draft> {
     // Binary formats and UTF-16 have zeros soon; all lines would otherwise count as unknown statements.
     if text.iter().take(4096).any(|&byte| byte == 0) {
         return Err((1, ObjError::NotText));
     }
-    let mut reader = Reader { face_offsets: vec![0], ..Reader::default() };
+    let gauge = Gauge::new(desc.limits, text).map_err(|error| (1, error.into()))?;
+    let mut reader = Reader::new(gauge, desc.repair.is_some());
     for (number, line) in Lines::new(text) {
         reader.statement(&line, number).map_err(|error| (number, error))?;
     }
     reader.finish()
 }
 
-#[derive(Default)]
 struct Reader {
+    gauge: Gauge,
+    /// Faces with fewer than three corners are left to the repair.
+    keep_small: bool,
     positions: Vec<DVec3>,
     uv_values: Vec<DVec2>,
     face_offsets: Vec<u32>,
@@ -55,17 +45,40 @@ struct Reader {
 }
 
 impl Reader {
+    fn new(gauge: Gauge, keep_small: bool) -> Self {
+        Self {
+            gauge,
+            keep_small,
+            positions: Vec::new(),
+            uv_values: Vec::new(),
+            face_offsets: vec![0],
+            face_vertices: Vec::new(),
+            uv_indices: Vec::new(),
+            tags: Tags::default(),
+            sets: FaceSets::default(),
+            ignored: Ignored::default(),
+            lines: SourceLines::default(),
+        }
+    }
+
     fn statement(&mut self, line: &[u8], at: u32) -> Result<(), ObjError> {
         let mut words = words(line);
         let Some(name) = words.next() else { return Ok(()) };
         match name {
-            b"v" => self.positions.push(DVec3::from_array(numbers("v", 3, words)?)),
-            b"vt" => self.uv_values.push(DVec2::from_array(numbers("vt", 1, words)?)),
+            b"v" => {
+                self.gauge.vertex()?;
+                self.positions.push(DVec3::from_array(numbers("v", 3, words)?));
+            }
+            b"vt" => {
+                self.gauge.uv()?;
+                self.uv_values.push(DVec2::from_array(numbers("vt", 1, words)?));
+            }
             // `fo` is how version 2 of the format wrote `f`.
             b"f" | b"fo" => self.face(words, at)?,
             b"g" => self.switch(FaceSetKind::Group, words.map(text)),
             b"o" => self.switch(FaceSetKind::Object, rest(line, name).into_iter()),
             b"usemtl" => self.switch(FaceSetKind::Material, rest(line, name).into_iter()),
+            b"s" => self.switch(FaceSetKind::Smoothing, words.take(1).filter(|word| is_smooth(word)).map(text)),
             b"t" => self.tag(&words.collect::<Vec<_>>(), at)?,
             _ => {
                 if let Some(reason) = reason(name) {
@@ -85,7 +98,8 @@ impl Reader {
             self.uv_indices.push(uv);
         }
         let end = self.face_vertices.len();
-        if end - start < 3 {
+        self.gauge.face(end - start)?;
+        if end - start < 3 && !self.keep_small {
             return Err(ObjError::TooFewCorners(end - start));
         }
         let end = u32::try_from(end).ok().filter(|&end| end != NONE).ok_or(ObjError::TooMany("face corners"))?;
@@ -95,6 +109,7 @@ impl Reader {
     }
 
     fn tag(&mut self, words: &[&[u8]], at: u32) -> Result<(), ObjError> {
+        self.gauge.tags(words.len())?;
         if let Some(unknown) = tags::parse(words, at, &mut self.tags, &mut self.lines)? {
             self.ignored.push(&[b"t ", unknown].concat(), "unknown tag", at);
         }
@@ -105,7 +120,7 @@ impl Reader {
         self.sets.switch(kind, names, self.lines.faces.len() as u32);
     }
 
-    fn finish(mut self) -> AtLine<Parsed> {
+    fn finish(mut self) -> AtLine<Draft> {
         self.check_range("vertex", &self.face_vertices, self.positions.len())?;
         self.check_range("uv", &self.uv_indices, self.uv_values.len())?;
         let mut warnings = std::mem::take(&mut self.ignored).into_warnings();
@@ -118,8 +133,9 @@ impl Reader {
             face_vertices: self.face_vertices,
             tags: self.tags,
             warnings,
+            ..CageDesc::default()
         };
-        Ok(Parsed { desc, lines: self.lines })
+        Ok(Draft { desc, lines: self.lines })
     }
 
     /// Indices may run forward, so the upper end is checked last.
@@ -129,6 +145,11 @@ impl Reader {
         let index = i64::from(indices[corner]) + 1;
         Err((self.lines.faces[face], ObjError::OutOfRange { what, index, count }))
     }
+}
+
+/// Whether the argument of `s` names a group; `off` and 0 end the one before.
+fn is_smooth(word: &[u8]) -> bool {
+    word != b"off" && word.iter().any(|&b| b != b'0')
 }
 
 /// Names may be in any encoding.

@@ -2,8 +2,9 @@
 //! follow. Indices count from 0, unlike those of faces.
 
 use super::ObjError;
-use super::numbers::{integer, number, quoted};
-use super::reader::SourceLines;
+use super::numbers::number;
+use crate::draft::SourceLines;
+use crate::text::{integer, quoted};
 use crate::{BoundaryRule, Corner, Crease, CreaseMethod, Tags};
 
 /// The arguments of a tag, by kind.

@@ -88,6 +88,19 @@ mod vertices_and_faces {
     }
 
     #[test]
+    fn smoothing_groups_are_sets() {
+        let text =
+            square("v 2 0 0\nv 2 1 0\nv 3 0 0\ns 1\nf 1 2 3 4\ns off\nf 2 5 6 3\ns 00\ns 12 # twelve\nf 5 7 6\n");
+        let cage = read(&text);
+        let sets: Vec<_> = cage.face_sets().iter().map(|set| (set.kind, &set.name[..], &set.faces[..])).collect();
+        assert_eq!(sets, [(FaceSetKind::Smoothing, "1", &[0..1][..]), (FaceSetKind::Smoothing, "12", &[2..3][..])]);
+        let mut text = Vec::new();
+        write_obj(&cage, &mut text).expect("a vector takes everything");
+        assert!(String::from_utf8_lossy(&text).contains("s 1\nf 1 2 3 4\ns off\nf 2 5 6 3\ns 12\nf 5 7 6\n"));
+        assert_eq!(read(&String::from_utf8_lossy(&text)).face_sets(), cage.face_sets());
+    }
+
+    #[test]
     fn unused_vertices_are_dropped_with_a_warning() {
         let text = "v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 9 9 9\nf 2 3 4\n";
         assert_eq!(warnings(text), ["2 unused vertices dropped: 0, 4"]);

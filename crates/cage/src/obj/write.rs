@@ -47,15 +47,20 @@ fn write_faces(cage: &Cage, out: &mut impl Write) -> io::Result<()> {
 
 /// The statements that begin and end face sets and the faces before which they stand, in rising order.
 fn switches(cage: &Cage) -> Vec<(u32, String)> {
-    let kinds = [(FaceSetKind::Object, "o"), (FaceSetKind::Group, "g"), (FaceSetKind::Material, "usemtl")];
     let mut switches: Vec<(u32, String)> =
-        kinds.iter().flat_map(|&(kind, keyword)| switches_of(cage.face_sets(), kind, keyword)).collect();
+        FaceSetKind::ALL.iter().flat_map(|&kind| switches_of(cage.face_sets(), kind)).collect();
     switches.sort_by_key(|(face, _)| *face);
     switches
 }
 
 /// A sweep over the beginnings and ends of all ranges of one kind.
-fn switches_of(sets: &[FaceSet], kind: FaceSetKind, keyword: &str) -> Vec<(u32, String)> {
+fn switches_of(sets: &[FaceSet], kind: FaceSetKind) -> Vec<(u32, String)> {
+    let keyword = match kind {
+        FaceSetKind::Object => "o",
+        FaceSetKind::Group => "g",
+        FaceSetKind::Material => "usemtl",
+        FaceSetKind::Smoothing => "s",
+    };
     let of_kind = sets.iter().enumerate().filter(|(_, set)| set.kind == kind);
     let ranges = of_kind.flat_map(|(index, set)| set.faces.iter().map(move |range| (index, range)));
     let mut events: Vec<(u32, usize)> =
@@ -71,6 +76,9 @@ fn switches_of(sets: &[FaceSet], kind: FaceSetKind, keyword: &str) -> Vec<(u32, 
                 active.insert(index);
             }
         }
+        if active.is_empty() && kind == FaceSetKind::Smoothing {
+            return (here[0].0, "s off".into());
+        }
         let names = active.iter().take(most).map(|&index| writable(&sets[index].name, kind));
         (here[0].0, names.fold(String::from(keyword), |statement, name| statement + " " + &name))
     };
@@ -79,7 +87,7 @@ fn switches_of(sets: &[FaceSet], kind: FaceSetKind, keyword: &str) -> Vec<(u32, 
 
 /// A name that reads back as one name.
 fn writable(name: &str, kind: FaceSetKind) -> String {
-    let is_group = kind == FaceSetKind::Group;
+    let is_group = matches!(kind, FaceSetKind::Group | FaceSetKind::Smoothing);
     let mut name = name.replace(|c: char| c.is_control() || (is_group && c.is_ascii_whitespace()), "_");
     // White space at the ends would be cut, a backslash would join the next line, and a group must not look like a comment.
     if name.is_empty() || name.ends_with(['\\', ' ']) {

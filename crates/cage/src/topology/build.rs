@@ -63,6 +63,27 @@ fn row<'a>(offsets: &[u32], values: &'a [u32], f: usize) -> &'a [u32] {
     &values[offsets[f] as usize..offsets[f + 1] as usize]
 }
 
+/// Checks what cannot be repaired: counts, rows and that corners name vertices that exist.
+pub(crate) fn check_rows(vertex_count: usize, offsets: &[u32], vertices: &[u32]) -> Result<(), TopologyError> {
+    check_counts(vertex_count, vertices.len())?;
+    check_offsets(offsets, vertices.len())?;
+    check_vertices(vertex_count, offsets, vertices)
+}
+
+fn check_vertices(vertex_count: usize, offsets: &[u32], vertices: &[u32]) -> Result<(), TopologyError> {
+    let missing = |f: u32| {
+        let missing = row(offsets, vertices, f as usize).iter().filter(|&&v| v as usize >= vertex_count);
+        missing.map(move |&vertex| FaceCorner { face: f, vertex })
+    };
+    let corners: Listed<FaceCorner> = (0..offsets.len() as u32 - 1).flat_map(missing).collect();
+    if corners.is_empty() { Ok(()) } else { Err(TopologyError::MissingVertex { corners, vertices: vertex_count }) }
+}
+
+/// True if a vertex occurs more than once among `corners`.
+pub(crate) fn repeats(corners: &[u32]) -> bool {
+    !repetitions(corners).is_empty()
+}
+
 fn check_corners(vertex_count: usize, offsets: &[u32], vertices: &[u32]) -> Result<(), TopologyError> {
     let faces = offsets.len() - 1;
     let face = |f: u32| row(offsets, vertices, f as usize);
@@ -71,13 +92,7 @@ fn check_corners(vertex_count: usize, offsets: &[u32], vertices: &[u32]) -> Resu
     if !small.is_empty() {
         return Err(TopologyError::TooFewCorners(small));
     }
-    let missing = |f: u32| {
-        face(f).iter().filter(|&&v| v as usize >= vertex_count).map(move |&vertex| FaceCorner { face: f, vertex })
-    };
-    let corners: Listed<FaceCorner> = (0..faces as u32).flat_map(missing).collect();
-    if !corners.is_empty() {
-        return Err(TopologyError::MissingVertex { corners, vertices: vertex_count });
-    }
+    check_vertices(vertex_count, offsets, vertices)?;
     let repeated: Vec<FaceCorner> = (0..faces as u32)
         .into_par_iter()
         .flat_map_iter(|f| repeated_vertices(face(f)).into_iter().map(move |vertex| FaceCorner { face: f, vertex }))

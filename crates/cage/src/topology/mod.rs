@@ -10,6 +10,7 @@ mod ring;
 
 use std::ops::Range;
 
+pub(crate) use build::{check_rows, repeats};
 pub use error::{EdgeFaces, FaceCorner, Fans, TopologyError};
 pub use ring::Ring;
 
