@@ -36,7 +36,7 @@ pub use cage::{Cage, CageDesc, FaceSet, FaceSetKind, FaceVarying, sub_faces};
 pub use creases::CreaseDesc;
 pub use error::{CageError, ReadError};
 pub use gltf::{AccessorError, GltfError, read_gltf};
-pub use inspect::{Inspection, Problem, inspect};
+pub use inspect::{Advice, Elements, Inspection, Problem, inspect};
 pub use limits::{LimitError, Limits};
 pub use listed::Listed;
 pub use obj::{ObjError, read_obj, write_obj};

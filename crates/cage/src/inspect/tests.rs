@@ -1,3 +1,5 @@
+use glam::DVec3;
+
 use super::*;
 use crate::{CageDesc, read_obj};
 
@@ -54,6 +56,7 @@ fn cube() {
         corners: 0,
         holes: 0,
         problems: vec![],
+        advice: vec![],
     };
     assert_eq!(inspect(&cage(CUBE)), expected);
 }
@@ -128,6 +131,7 @@ fn no_length_and_no_area() {
         [
             "1 edge of length zero: 1-2",
             "2 faces without area: 0, 1",
+            "2 faces without neighbours: 0, 1",
             "1 boundary vertex at the place of another, so a seam may be open: 2"
         ]
     );
@@ -166,7 +170,10 @@ fn a_point() {
 fn open_seams() {
     assert_eq!(
         problems("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 4 6 5\n"),
-        ["2 boundary vertices at the place of another, so a seam may be open: 3, 4"]
+        [
+            "2 faces without neighbours: 0, 1",
+            "2 boundary vertices at the place of another, so a seam may be open: 3, 4"
+        ]
     );
 }
 
@@ -176,4 +183,75 @@ fn warnings_are_problems() {
         problems("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\nl 1 2\n"),
         ["1 statement ignored: l (lines are not part of a cage), first in line 6", "1 unused vertex dropped: 0"]
     );
+}
+
+/// A fan of that many triangles around vertex 0.
+fn fan(triangles: u32) -> String {
+    let mut text = String::from("v 0 0 0\n");
+    for i in 0..triangles {
+        let angle = f64::from(i) / f64::from(triangles) * std::f64::consts::TAU;
+        text += &format!("v {} {} 0\n", angle.cos(), angle.sin());
+    }
+    for i in 0..triangles {
+        text += &format!("f 1 {} {}\n", i + 2, (i + 1) % triangles + 2);
+    }
+    text
+}
+
+#[test]
+fn poles() {
+    assert_eq!(problems(&fan(8)), [""; 0]);
+    assert_eq!(problems(&fan(9)), ["1 vertex with more than 8 edges: 0"]);
+}
+
+#[test]
+fn edges_that_end_at_a_side() {
+    // Two quads beside a pentagon with a corner in the middle of its left side.
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 2 0\nv 0 2 0\nv 2 0 0\nv 2 2 0\n\
+        f 1 2 3 4\nf 4 3 5 6\nf 2 7 8 5 3\n";
+    assert_eq!(problems(text), ["1 inner vertex at the middle of a face's side: 2"]);
+    let advice = &inspect(&cage(text)).advice;
+    assert_eq!((advice[0].kind, advice[0].count, &advice[0].elements), ("t_vertex", 1, &Elements::Vertices(vec![2])));
+    assert!(advice[0].hint.contains("lead the edge"));
+    // A bent side is a corner.
+    assert_eq!(problems(&text.replace("v 1 1 0", "v 0.8 1 0")), [""; 0]);
+}
+
+#[test]
+fn sides_that_gape() {
+    let text = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 1 2 0\nv 0 2 0\nv 2 0 0\nv 2 2 0\nv 1 0 0\nv 1 2 0\n\
+        f 1 2 3 4\nf 4 3 5 6\nf 9 7 8 10\n";
+    assert_eq!(
+        problems(text),
+        [
+            "1 boundary vertex at the middle of a boundary edge: 2",
+            "1 face without neighbours: 2",
+            "2 boundary vertices at the place of another, so a seam may be open: 8, 9",
+        ]
+    );
+}
+
+#[test]
+fn gaping_sides_are_found_among_many() {
+    // Two rows of squares, the second twice as long and not joined to the first.
+    let mut text = String::new();
+    for i in 0..100 {
+        text += &format!("v {i} 0 0\nv {} 0 0\nv {} 1 0\nv {i} 1 0\nf -4 -3 -2 -1\n", i + 1, i + 1);
+        text += &format!("v {0} 1 0\nv {1} 1 0\nv {1} 2 0\nv {0} 2 0\nf -4 -3 -2 -1\n", 2 * i, 2 * i + 2);
+    }
+    let found = inspect(&cage(&text));
+    let tees = found.advice.iter().find(|advice| advice.kind == "open_t_vertex").expect("gaping sides");
+    // Every odd place on the common line below 100, where two squares of the first row meet.
+    assert_eq!(tees.count, 100);
+}
+
+#[test]
+fn advice_serializes_for_programs() {
+    let json = serde_json::to_value(inspect(&cage("v 0 0 0\nv 1 0 0\nv 1 0 0\nf 1 2 3\n"))).expect("JSON");
+    assert_eq!(json["advice"][0]["kind"], "zero_length");
+    assert_eq!(json["advice"][0]["edges"], serde_json::json!([[1, 2]]));
+    assert_eq!(json["advice"][0]["count"], 1);
+    assert_eq!(json["advice"][0]["message"], json["problems"][0]);
+    assert_eq!(json["advice"][1]["faces"], serde_json::json!([0]));
+    assert!(json["advice"].as_array().expect("a list").iter().all(|advice| advice["hint"].as_str() != Some("")));
 }
