@@ -54,7 +54,7 @@ void main() {
     FanSpoke a = fan_spoke(source.fan[0], source.edge[0]);
     FanSpoke b = fan_spoke(source.fan[1], source.edge[1]);
     vec3 c[4] = vec3[](a.position, a.edge_point, b.edge_point, b.position);
-    vec3 d[4] = vec3[](a.cross_end, a.cross_inner, -b.cross_inner, -b.cross_end);
+    precise vec3 d[4] = vec3[](a.cross_end, a.cross_inner, -b.cross_inner, -b.cross_end);
     settle_ends(fans[source.fan[0]].cross_end, fans[source.fan[1]].cross_end, c, d);
     for (uint i = 0u; i < 4u; ++i) {
         store_edge_point(kernel.first + record, i, c[i]);

@@ -263,3 +263,20 @@ fn very_high_valence_is_refused() {
     let corners: Vec<u32> = (0..300).collect();
     assert!(plan(&common::cage(300, &[&corners]), BoundaryRule::EdgeOnly).is_ok());
 }
+
+/// Work is split by the number of threads, results are not.
+#[test]
+fn plans_do_not_depend_on_the_number_of_threads() {
+    let arrays = |plan: &SurfacePlan| {
+        let gathers = (plan.gathers.fans.clone(), plan.gathers.edges.clone(), plan.gathers.patches.clone());
+        let plain = [&plan.nets, &plan.quads, &plan.vertex_records.regular, &plan.edge_records.regular];
+        (plain.map(Vec::clone), gathers, plan.patches.clone(), plan.weights.clone(), plan.boundary_edges.clone())
+    };
+    let with_threads = |threads, cage: &Cage| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        arrays(&pool.install(|| plan(cage, BoundaryRule::EdgeAndCorner).unwrap()))
+    };
+    for (name, cage) in cages() {
+        assert!(with_threads(1, &cage) == with_threads(3, &cage), "{name}");
+    }
+}

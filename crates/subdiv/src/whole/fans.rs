@@ -26,11 +26,15 @@ pub(super) struct Fans {
     pub(super) weights: Vec<f32>,
 }
 
-/// First weights of the matrices of a kind of fan.
+/// What all fans of a kind share.
 #[derive(Clone, Copy)]
-struct Matrices {
+struct Shape {
+    /// First weight of the matrix of vectors.
     vectors: u32,
+    /// First weight of the matrix of the vertex record.
     vertex: u32,
+    cross_end: u32,
+    cosine: f32,
 }
 
 /// Most weights of all kinds of fans together: half a gibibyte.
@@ -44,7 +48,7 @@ impl Fans {
     ) -> Result<Self, PlanError> {
         let vertices = corners_of_stored_patches(whole);
         let kinds: Vec<Fan> = vertices.par_iter().map(|&v| whole.fan(v)).collect();
-        let (weights, matrices) = matrices(&kinds)?;
+        let (weights, shapes) = shapes(&kinds)?;
         let mut fans = Self {
             of_vertex: vec![NONE; whole.mesh.vertex_count()],
             kinds,
@@ -56,12 +60,12 @@ impl Fans {
         };
         for (i, &vertex) in vertices.iter().enumerate() {
             let (kind, net) = (fans.kinds[i], (whole.nets.len() + fans.nets.len()) as u32);
-            let (columns, at) = (kind.net_size() as u32, matrices[&kind]);
-            let first = projections.push((net, columns), at.vectors, kind.rows() as u32, kind.point_rows() as u32);
-            let (edges, cross_end, cosine) = (kind.edges() as u32, kind.cross_end().number(), kind.cosine() as f32);
+            let (columns, shape) = (kind.net_size() as u32, shapes[&kind]);
+            let first = projections.push((net, columns), shape.vectors, kind.rows() as u32, kind.point_rows() as u32);
+            let Shape { cross_end, cosine, .. } = shape;
             fans.of_vertex[vertex as usize] = i as u32;
-            fans.records.push(FanRecord { first, edges, cross_end, cosine });
-            fans.vertices.push(MatrixSource { net, weights: at.vertex, columns });
+            fans.records.push(FanRecord { first, edges: kind.edges() as u32, cross_end, cosine });
+            fans.vertices.push(MatrixSource { net, weights: shape.vertex, columns });
             fans.add_net(whole, vertex);
         }
         Ok(fans)
@@ -115,8 +119,8 @@ fn corners_of_stored_patches<M: Connectivity>(whole: &WholeMesh<'_, M>) -> Vec<u
     (0..needed.len() as u32).filter(|&v| needed[v as usize]).collect()
 }
 
-/// Matrices of all kinds that occur, one after the other.
-fn matrices(kinds: &[Fan]) -> Result<(Vec<f32>, BTreeMap<Fan, Matrices>), PlanError> {
+/// Matrices of all kinds that occur, one after the other, and what else their fans share.
+fn shapes(kinds: &[Fan]) -> Result<(Vec<f32>, BTreeMap<Fan, Shape>), PlanError> {
     let distinct: Vec<Fan> = kinds.iter().copied().collect::<BTreeSet<_>>().into_iter().collect();
     let count = distinct.iter().map(|kind| (kind.rows() as u64 + 3) * kind.net_size() as u64).sum();
     if count > WEIGHT_LIMIT {
@@ -124,11 +128,12 @@ fn matrices(kinds: &[Fan]) -> Result<(Vec<f32>, BTreeMap<Fan, Matrices>), PlanEr
         return Err(PlanError::HighValence { valence, count, limit: WEIGHT_LIMIT });
     }
     let blocks: Vec<_> = distinct.par_iter().map(|kind| (kind.matrix().to_f32(), kind.vertex().to_f32())).collect();
-    let (mut weights, mut offsets) = (Vec::new(), BTreeMap::new());
+    let (mut weights, mut shapes) = (Vec::new(), BTreeMap::new());
     for (kind, (vectors, vertex)) in distinct.into_iter().zip(blocks) {
         let first = weights.len() as u32;
-        offsets.insert(kind, Matrices { vectors: first, vertex: first + vectors.len() as u32 });
+        let (cross_end, cosine) = (kind.cross_end().number(), kind.cosine() as f32);
+        shapes.insert(kind, Shape { vectors: first, vertex: first + vectors.len() as u32, cross_end, cosine });
         weights.extend(vectors.into_iter().chain(vertex));
     }
-    Ok((weights, offsets))
+    Ok((weights, shapes))
 }
