@@ -4,6 +4,7 @@ mod curvature;
 mod evaluators;
 mod exactness;
 mod golden;
+mod leaks;
 mod pictures;
 mod sampling;
 mod subdivision;
