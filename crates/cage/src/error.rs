@@ -46,6 +46,12 @@ pub enum CageError {
     /// Uv that are infinite or not a number.
     #[error("{counted} not finite: {0}", counted = .0.count("uv"))]
     UvNotFinite(Listed<u32>),
+    /// Materials or texture coordinates that do not fit the faces.
+    #[error("the appearance does not fit the cage: {0}")]
+    Appearance(&'static str),
+    /// A rig that does not fit the vertices.
+    #[error("the rig does not fit the cage: {0}")]
+    Rig(&'static str),
     /// The indices in the file are not one for each element, or those of faces do not rise.
     #[error("{sources} indices in the file for {}; there must be none, or one for each, rising for faces", crate::listed::plural(*.count, .noun))]
     Sources {
@@ -86,7 +92,7 @@ impl CageError {
     /// A reminder of how elements are numbered, for messages that name some.
     fn counting(&self) -> &'static str {
         match self {
-            Self::NoFaces | Self::TooLarge { .. } | Self::UvCount { .. } => "",
+            Self::NoFaces | Self::TooLarge { .. } | Self::UvCount { .. } | Self::Appearance(_) | Self::Rig(_) => "",
             _ => " (elements count from 0)",
         }
     }

@@ -7,6 +7,7 @@
 //! Vertices, faces and half-edges are numbered from 0. The index of a face is the index of its `f` line in the file.
 #![cfg_attr(test, expect(clippy::single_range_in_vec_init, reason = "face sets are lists of ranges"))]
 
+mod appearance;
 mod bounds;
 mod cage;
 mod creases;
@@ -25,17 +26,19 @@ mod random;
 mod read;
 mod reference;
 mod repair;
+mod rig;
 mod tags;
 mod text;
 mod topology;
 mod warning;
 mod weld;
 
+pub use appearance::{Appearance, Displacement, Image, ImageSource, Material, Texture, UvSet, Wrap};
 pub use bounds::Bounds;
 pub use cage::{Cage, CageDesc, FaceSet, FaceSetKind, FaceVarying, sub_faces};
 pub use creases::CreaseDesc;
 pub use error::{CageError, ReadError};
-pub use gltf::{AccessorError, GltfError, read_gltf};
+pub use gltf::{AccessorError, GltfDesc, GltfError, GltfPlace, PolygonRecovery, PolygonReport, read_gltf};
 pub use inspect::{Advice, Elements, Inspection, Problem, inspect};
 pub use limits::{LimitError, Limits};
 pub use listed::Listed;
@@ -44,6 +47,10 @@ pub use off::{OffError, read_off};
 pub use ply::{PlyError, read_ply};
 pub use read::{FileFormat, ReadDesc};
 pub use repair::{RepairDesc, RepairReport, repair};
+pub use rig::{
+    Animation, AnimationChannel, AnimationSampler, Interpolation, Joint, MorphSet, MorphTarget, NodeProperty,
+    NodeTransform, Pose, Rig, RigNode,
+};
 pub use tags::{BoundaryRule, Corner, Crease, CreaseMethod, TagError, Tags};
 pub use topology::{EdgeFaces, FaceCorner, Fans, Ring, Topology, TopologyError};
 pub use warning::Warning;

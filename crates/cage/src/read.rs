@@ -2,11 +2,13 @@
 
 use std::path::Path;
 
-use crate::{Cage, CreaseDesc, Limits, ReadError, RepairDesc, obj, off, ply, read_gltf};
+use crate::{Cage, CreaseDesc, GltfDesc, Limits, ReadError, RepairDesc, obj, off, ply, read_gltf};
 
 /// How files become cages.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ReadDesc {
+    /// How glTF files do.
+    pub gltf: GltfDesc,
     /// What is repaired before the mesh is checked; by default nothing, and what is no manifold mesh is refused.
     pub repair: Option<RepairDesc>,
     /// Crease tags to make from the shape and the seams of the cage; by default none.
@@ -78,7 +80,7 @@ impl Cage {
             FileFormat::Obj => obj::draft(&bytes, &name, desc)?,
             FileFormat::Ply => ply::draft(&bytes, &name, desc)?,
             FileFormat::Off => off::draft(&bytes, &name, desc)?,
-            FileFormat::Gltf => return read_gltf(&bytes, &name, path.parent()),
+            FileFormat::Gltf => return read_gltf(&bytes, &name, path.parent(), &desc.gltf),
         };
         // The text is as large as what was made of it, and no longer needed.
         drop(bytes);

@@ -1,7 +1,7 @@
 //! What was odd about a file but did not keep it from being read.
 
 use crate::listed::plural;
-use crate::{Listed, RepairReport};
+use crate::{Listed, PolygonReport, RepairReport};
 
 /// Something the reader ignored, dropped or made up; the cage is valid all the same.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -66,9 +66,36 @@ pub enum Warning {
     /// Triangles of a glTF scene with two corners at one place were dropped.
     #[error("{} with two corners at one place dropped", plural(*.0, "triangle"))]
     DegenerateTriangles(usize),
+    /// Vertices of a glTF scene at the place of others that move differently; welded, they would be torn.
+    #[error("{} at the place of another that moves differently, not welded", plural(*.0, "vertex"))]
+    MoveApart(usize),
+    /// Polygons of a glTF file that were guessed, or triangles that may have been polygons.
+    #[error("{}", polygons(.0))]
+    Polygons(PolygonReport),
+    /// The polygons that were found in a glTF scene are no manifold mesh, but its triangles are.
+    #[error("polygons found among the triangles are not used, because together they are not manifold")]
+    PolygonsNotUsed,
     /// The nodes of a glTF scene touch in a way that is no manifold, so they were not welded to each other.
     #[error("{} welded each by itself, because together they are not manifold", plural(*.0, "node"))]
     WeldedByNode(usize),
+}
+
+fn polygons(report: &PolygonReport) -> String {
+    let &PolygonReport { triangles, marked, by_order, by_shape, left, .. } = report;
+    let sources: Vec<String> = [(marked, "marked"), (by_order, "by order"), (by_shape, "by shape")]
+        .into_iter()
+        .filter(|(n, _)| *n > 0)
+        .map(|(n, how)| format!("{n} {how}"))
+        .collect();
+    let found = match &sources[..] {
+        [] => "no larger polygons".into(),
+        sources => format!("{} ({})", plural(marked + by_order + by_shape, "larger polygon"), sources.join(", ")),
+    };
+    let left = match left {
+        0 => String::new(),
+        _ => format!("; {left} stay as they are: {}", report.left_faces),
+    };
+    format!("{} give {found}{left}", plural(triangles, "triangle"))
 }
 
 fn already(tagged: usize) -> String {

@@ -9,7 +9,9 @@ use rayon::prelude::*;
 
 pub use parts::sub_faces;
 
-use crate::{BoundaryRule, Bounds, CageError, Crease, Listed, NONE, Tags, Topology, Warning};
+use crate::{
+    Appearance, BoundaryRule, Bounds, CageError, Crease, Listed, NONE, PolygonReport, Rig, Tags, Topology, Warning,
+};
 
 /// Data that belongs to the corners of faces rather than to vertices, so that it may jump at a seam.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -83,6 +85,12 @@ pub struct CageDesc {
     pub tags: Tags,
     /// Groups, objects and materials.
     pub face_sets: Vec<FaceSet>,
+    /// Materials, textures and further texture coordinates.
+    pub appearance: Option<Appearance>,
+    /// What moves the vertices.
+    pub rig: Option<Rig>,
+    /// What became of the triangles of a file that has nothing else.
+    pub polygons: Option<PolygonReport>,
     /// For each vertex its index in the file, if it has another one here; empty if not.
     pub source_vertices: Vec<u32>,
     /// For each face its index in the file, if it has another one here; empty if not.
@@ -116,6 +124,9 @@ pub struct Cage {
     uv: Option<FaceVarying>,
     tags: Tags,
     face_sets: Vec<FaceSet>,
+    appearance: Option<Appearance>,
+    rig: Option<Box<Rig>>,
+    polygons: Option<PolygonReport>,
     warnings: Vec<Warning>,
     bounds: Bounds,
 }
@@ -136,6 +147,9 @@ impl Cage {
             uv,
             mut tags,
             face_sets,
+            appearance,
+            mut rig,
+            polygons,
             source_vertices: origins,
             source_faces,
             mut warnings,
@@ -153,11 +167,20 @@ impl Cage {
             check_uv(uv, topology.half_edge_count())?;
         }
         check_face_sets(&face_sets, topology.face_count())?;
+        if let Some(appearance) = &appearance {
+            appearance.check(topology.face_count(), topology.half_edge_count()).map_err(CageError::Appearance)?;
+        }
+        if let Some(rig) = &rig {
+            rig.check(positions.len()).map_err(CageError::Rig)?;
+        }
 
         check_sources("vertex", &origins, positions.len())?;
         check_sources("face", &source_faces, topology.face_count())?;
 
         let (positions, mut source_vertices) = drop_unused_vertices(positions, &mut topology, &mut tags, &mut warnings);
+        if let Some(rig) = rig.as_mut().filter(|rig| rig.bind_positions.len() > positions.len()) {
+            rig.renumber_vertices(&source_vertices);
+        }
         if !origins.is_empty() {
             source_vertices.iter_mut().for_each(|v| *v = origins[*v as usize]);
         }
@@ -168,7 +191,21 @@ impl Cage {
             return Err(CageError::TooLarge { size });
         }
         warn_of_tags(&tags, &mut warnings);
-        Ok(Self { positions, source_vertices, source_faces, topology, uv, tags, face_sets, warnings, bounds })
+        let rig = rig.map(Box::new);
+        Ok(Self {
+            positions,
+            source_vertices,
+            source_faces,
+            topology,
+            uv,
+            tags,
+            face_sets,
+            appearance,
+            rig,
+            polygons,
+            warnings,
+            bounds,
+        })
     }
 
     /// Positions of the vertices, in the units of the file.
@@ -257,6 +294,24 @@ impl Cage {
     #[must_use]
     pub fn face_sets(&self) -> &[FaceSet] {
         &self.face_sets
+    }
+
+    /// Materials, textures and further texture coordinates, if the file has any.
+    #[must_use]
+    pub fn appearance(&self) -> Option<&Appearance> {
+        self.appearance.as_ref()
+    }
+
+    /// What moves the vertices, if anything does: [`Cage::positions`] are its pose at rest.
+    #[must_use]
+    pub fn rig(&self) -> Option<&Rig> {
+        self.rig.as_deref()
+    }
+
+    /// What became of the triangles of a file that has nothing else, where polygons were looked for.
+    #[must_use]
+    pub fn polygon_report(&self) -> Option<&PolygonReport> {
+        self.polygons.as_ref()
     }
 
     /// What was ignored, dropped or made up on the way.

@@ -16,8 +16,19 @@ struct Strided<'a> {
     stride: usize,
 }
 
+/// Where elements are in a view.
+struct Place {
+    offset: usize,
+    count: usize,
+    /// The size of an element.
+    size: usize,
+    /// The size of a component, which offsets and strides are multiples of.
+    alignment: usize,
+}
+
 impl<'a> Strided<'a> {
-    fn new(view: &View, offset: usize, count: usize, size: usize, buffers: &'a Buffers) -> Result<Self, AccessorError> {
+    fn new(view: &View, place: &Place, buffers: &'a Buffers) -> Result<Self, AccessorError> {
+        let &Place { offset, count, size, alignment } = place;
         let buffer = buffers.get(view.buffer().index());
         let end = view.offset().checked_add(view.length());
         let bytes =
@@ -31,6 +42,10 @@ impl<'a> Strided<'a> {
         let needed = span.saturating_add(offset as u64);
         if needed > bytes.len() as u64 {
             return Err(AccessorError::OutOfRange { needed, available: bytes.len() as u64 });
+        }
+        let start = view.offset() as u64 + offset as u64;
+        if !start.is_multiple_of(alignment as u64) || !stride.is_multiple_of(alignment) {
+            return Err(AccessorError::Alignment { offset: start, stride, alignment });
         }
         Ok(Self { data: &bytes[offset..], size, stride })
     }
@@ -57,10 +72,10 @@ struct Sparse<'a> {
 
 impl<'a> Elements<'a> {
     fn new(accessor: &Accessor, buffers: &'a Buffers) -> Result<Self, AccessorError> {
-        let (count, size) = (accessor.count(), accessor.size());
-        let base =
-            accessor.view().map(|view| Strided::new(&view, accessor.offset(), count, size, buffers)).transpose()?;
-        let sparse = accessor.sparse().map(|sparse| Sparse::new(&sparse, size, buffers)).transpose()?;
+        let (count, size, alignment) = (accessor.count(), accessor.size(), accessor.data_type().size());
+        let place = Place { offset: accessor.offset(), count, size, alignment };
+        let base = accessor.view().map(|view| Strided::new(&view, &place, buffers)).transpose()?;
+        let sparse = accessor.sparse().map(|sparse| Sparse::new(&sparse, accessor, buffers)).transpose()?;
         Ok(Self { count, base, sparse })
     }
 
@@ -76,18 +91,40 @@ impl<'a> Elements<'a> {
 }
 
 impl<'a> Sparse<'a> {
-    fn new(sparse: &sparse::Sparse, size: usize, buffers: &'a Buffers) -> Result<Self, AccessorError> {
+    fn new(sparse: &sparse::Sparse, accessor: &Accessor, buffers: &'a Buffers) -> Result<Self, AccessorError> {
         let (count, indices, values) = (sparse.count(), sparse.indices(), sparse.values());
         let index_size = match indices.index_type() {
             sparse::IndexType::U8 => 1,
             sparse::IndexType::U16 => 2,
             sparse::IndexType::U32 => 4,
         };
-        Ok(Self {
+        let at = Place { offset: indices.offset(), count, size: index_size, alignment: index_size };
+        let alignment = accessor.data_type().size();
+        let of = Place { offset: values.offset(), count, size: accessor.size(), alignment };
+        let new = Self {
             count,
-            indices: Strided::new(&indices.view(), indices.offset(), count, index_size, buffers)?,
-            values: Strided::new(&values.view(), values.offset(), count, size, buffers)?,
-        })
+            indices: Strided::new(&indices.view(), &at, buffers)?,
+            values: Strided::new(&values.view(), &of, buffers)?,
+        };
+        new.check_rising(accessor, buffers)?;
+        Ok(new)
+    }
+
+    /// Values are found by bisection.
+    fn check_rising(&self, accessor: &Accessor, buffers: &Buffers) -> Result<(), AccessorError> {
+        if buffers.rising.borrow().contains(&accessor.index()) {
+            return Ok(());
+        }
+        let mut least = 0;
+        for position in 0..self.count {
+            let index = u64::from(unsigned(self.indices.get(position)));
+            if index < least || index >= accessor.count() as u64 {
+                return Err(AccessorError::Sparse { count: accessor.count(), position });
+            }
+            least = index + 1;
+        }
+        buffers.rising.borrow_mut().insert(accessor.index());
+        Ok(())
     }
 
     fn get(&self, index: u32) -> Option<&'a [u8]> {
@@ -109,47 +146,128 @@ fn unsigned(bytes: &[u8]) -> u32 {
     bytes.iter().rev().fold(0, |value, &byte| value << 8 | u32::from(byte))
 }
 
-/// A little-endian float.
-fn float(bytes: &[u8]) -> f64 {
-    f64::from(f32::from_bits(unsigned(bytes)))
+/// A little-endian integer of one or two bytes in two's complement.
+fn signed(bytes: &[u8]) -> i32 {
+    let unused = 32 - 8 * bytes.len() as u32;
+    (unsigned(bytes) << unused).cast_signed() >> unused
 }
 
-/// Vectors of `N` numbers.
-pub(super) struct Vectors<'a, const N: usize> {
-    elements: Elements<'a>,
-    scale: Scale,
+/// What vectors are for, which decides on the types that they may have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(super) enum Purpose {
+    Position,
+    MorphOffset,
+    Uv,
+    JointWeights,
+    Time,
+    /// Translations and scales.
+    Vector,
+    Rotation,
+    MorphWeight,
+    Matrix,
 }
 
-/// How components become numbers.
-#[derive(Clone, Copy)]
-enum Scale {
-    Float,
-    /// Unsigned integers that mean fractions of this.
-    Normalized(f64),
-}
-
-impl<'a, const N: usize> Vectors<'a, N> {
-    /// Positions: three floats.
-    pub(super) fn positions(accessor: &Accessor, buffers: &'a Buffers) -> Result<Self, AccessorError> {
-        match (accessor.dimensions(), accessor.data_type()) {
-            (Dimensions::Vec3, DataType::F32) if N == 3 => Self::new(accessor, buffers, Scale::Float),
-            _ => Err(wrong_type(accessor, "VEC3 of F32")),
+impl Purpose {
+    fn dimensions(self) -> Dimensions {
+        match self {
+            Self::Position | Self::MorphOffset | Self::Vector => Dimensions::Vec3,
+            Self::Uv => Dimensions::Vec2,
+            Self::JointWeights | Self::Rotation => Dimensions::Vec4,
+            Self::Time | Self::MorphWeight => Dimensions::Scalar,
+            Self::Matrix => Dimensions::Mat4,
         }
     }
 
-    /// Texture coordinates: two floats or normalized integers.
-    pub(super) fn uv(accessor: &Accessor, buffers: &'a Buffers) -> Result<Self, AccessorError> {
-        let scale = match (accessor.dimensions(), accessor.data_type(), accessor.normalized()) {
-            (Dimensions::Vec2, DataType::F32, _) if N == 2 => Scale::Float,
-            (Dimensions::Vec2, DataType::U8, true) if N == 2 => Scale::Normalized(f64::from(u8::MAX)),
-            (Dimensions::Vec2, DataType::U16, true) if N == 2 => Scale::Normalized(f64::from(u16::MAX)),
-            _ => return Err(wrong_type(accessor, "VEC2 of F32 or of normalized U8 or U16")),
-        };
-        Self::new(accessor, buffers, scale)
+    /// True for integers that need no extension.
+    fn takes(self, data: DataType, normalized: bool) -> bool {
+        use DataType::{I8, I16, U8, U16};
+        match self {
+            Self::Uv | Self::JointWeights => normalized && matches!(data, U8 | U16),
+            Self::Rotation | Self::MorphWeight => normalized && matches!(data, I8 | U8 | I16 | U16),
+            _ => false,
+        }
     }
 
-    fn new(accessor: &Accessor, buffers: &'a Buffers, scale: Scale) -> Result<Self, AccessorError> {
-        Ok(Self { elements: Elements::new(accessor, buffers)?, scale })
+    /// True for integers that `KHR_mesh_quantization` allows.
+    fn takes_quantized(self, data: DataType) -> bool {
+        match self {
+            Self::Position | Self::Uv => !matches!(data, DataType::U32 | DataType::F32),
+            Self::MorphOffset => matches!(data, DataType::I8 | DataType::I16),
+            _ => false,
+        }
+    }
+
+    fn due(self) -> &'static str {
+        match self {
+            Self::Position | Self::MorphOffset | Self::Vector => "VEC3 of F32",
+            Self::Uv => "VEC2 of F32 or of normalized U8 or U16",
+            Self::JointWeights => "VEC4 of F32 or of normalized U8 or U16",
+            Self::Rotation => "VEC4 of F32 or of normalized integers of 8 or 16 bits",
+            Self::MorphWeight => "SCALAR of F32 or of normalized integers of 8 or 16 bits",
+            Self::Time => "SCALAR of F32",
+            Self::Matrix => "MAT4 of F32",
+        }
+    }
+
+    fn check(self, accessor: &Accessor, buffers: &Buffers) -> Result<(), AccessorError> {
+        let (data, normalized) = (accessor.data_type(), accessor.normalized());
+        let plain = (data == DataType::F32 && !normalized) || self.takes(data, normalized);
+        if accessor.dimensions() != self.dimensions() {
+            Err(wrong_type(accessor, self.due()))
+        } else if plain || (self.takes_quantized(data) && buffers.quantized) {
+            Ok(())
+        } else if self.takes_quantized(data) && self != Self::Uv {
+            Err(AccessorError::NotQuantized { found: type_name(accessor) })
+        } else {
+            Err(wrong_type(accessor, self.due()))
+        }
+    }
+}
+
+/// How a component becomes a number.
+#[derive(Clone, Copy)]
+enum Component {
+    Float,
+    Unsigned(f64),
+    Signed(f64),
+}
+
+impl Component {
+    /// Normalised integers by the formulas of the glTF 2.0 specification, section 3.11.
+    fn of(accessor: &Accessor) -> Self {
+        let one = |largest: f64| if accessor.normalized() { largest } else { 1.0 };
+        match accessor.data_type() {
+            DataType::F32 => Self::Float,
+            DataType::I8 => Self::Signed(one(f64::from(i8::MAX))),
+            DataType::I16 => Self::Signed(one(f64::from(i16::MAX))),
+            DataType::U8 => Self::Unsigned(one(f64::from(u8::MAX))),
+            DataType::U16 | DataType::U32 => Self::Unsigned(one(f64::from(u16::MAX))),
+        }
+    }
+
+    fn read(self, bytes: &[u8]) -> f64 {
+        match self {
+            Self::Float => f64::from(f32::from_bits(unsigned(bytes))),
+            Self::Unsigned(one) => f64::from(unsigned(bytes)) / one,
+            Self::Signed(one) if one > 1.0 => (f64::from(signed(bytes)) / one).max(-1.0),
+            Self::Signed(_) => f64::from(signed(bytes)),
+        }
+    }
+}
+
+/// Vectors of `N` finite numbers.
+pub(super) struct Vectors<'a, const N: usize> {
+    elements: Elements<'a>,
+    component: Component,
+}
+
+impl<'a, const N: usize> Vectors<'a, N> {
+    /// # Panics
+    /// If vectors for `purpose` do not have `N` numbers.
+    pub(super) fn new(accessor: &Accessor, buffers: &'a Buffers, purpose: Purpose) -> Result<Self, AccessorError> {
+        assert_eq!(purpose.dimensions().multiplicity(), N, "{purpose:?}");
+        purpose.check(accessor, buffers)?;
+        Ok(Self { elements: Elements::new(accessor, buffers)?, component: Component::of(accessor) })
     }
 
     pub(super) fn count(&self) -> usize {
@@ -159,13 +277,14 @@ impl<'a, const N: usize> Vectors<'a, N> {
     pub(super) fn get(&self, index: u32) -> Result<[f64; N], AccessorError> {
         let mut vector = [0.0; N];
         let Some(bytes) = self.elements.get(index)? else { return Ok(vector) };
-        for (component, bytes) in vector.iter_mut().zip(bytes.chunks_exact(bytes.len() / N)) {
-            *component = match self.scale {
-                Scale::Float => float(bytes),
-                Scale::Normalized(one) => f64::from(unsigned(bytes)) / one,
-            };
+        for (number, bytes) in vector.iter_mut().zip(bytes.chunks_exact(bytes.len() / N)) {
+            *number = self.component.read(bytes);
         }
-        Ok(vector)
+        if vector.iter().all(|x| x.is_finite()) {
+            Ok(vector)
+        } else {
+            Err(AccessorError::Value { index, fault: "is infinite or not a number".into() })
+        }
     }
 }
 
@@ -193,8 +312,36 @@ impl<'a> Indices<'a> {
     }
 }
 
-fn wrong_type(accessor: &Accessor, expected: &'static str) -> AccessorError {
+/// Four joints of each vertex, as numbers within a skin.
+pub(super) struct Joints<'a> {
+    elements: Elements<'a>,
+}
+
+impl<'a> Joints<'a> {
+    pub(super) fn new(accessor: &Accessor, buffers: &'a Buffers) -> Result<Self, AccessorError> {
+        match (accessor.dimensions(), accessor.data_type(), accessor.normalized()) {
+            (Dimensions::Vec4, DataType::U8 | DataType::U16, false) => {
+                Ok(Self { elements: Elements::new(accessor, buffers)? })
+            }
+            _ => Err(wrong_type(accessor, "VEC4 of U8 or U16")),
+        }
+    }
+
+    pub(super) fn get(&self, index: u32) -> Result<[u32; 4], AccessorError> {
+        let mut joints = [0; 4];
+        if let Some(bytes) = self.elements.get(index)? {
+            joints.iter_mut().zip(bytes.chunks_exact(bytes.len() / 4)).for_each(|(joint, b)| *joint = unsigned(b));
+        }
+        Ok(joints)
+    }
+}
+
+fn type_name(accessor: &Accessor) -> String {
     let normalized = if accessor.normalized() { "normalized " } else { "" };
     let dimensions = format!("{:?}", accessor.dimensions()).to_uppercase();
-    AccessorError::Type { found: format!("{dimensions} of {normalized}{:?}", accessor.data_type()), expected }
+    format!("{dimensions} of {normalized}{:?}", accessor.data_type())
+}
+
+fn wrong_type(accessor: &Accessor, expected: &'static str) -> AccessorError {
+    AccessorError::Type { found: type_name(accessor), expected }
 }

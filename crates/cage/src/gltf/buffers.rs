@@ -1,6 +1,7 @@
 //! The bytes of a file's buffers: binary part, `data:` uri or file beside it.
 
-use std::collections::HashMap;
+use std::cell::RefCell;
+use std::collections::{HashMap, HashSet};
 use std::path::{Component, Path, PathBuf};
 use std::rc::Rc;
 
@@ -9,21 +10,33 @@ use ::gltf::buffer::{Buffer, Source};
 
 use super::GltfError;
 use super::base64;
+use super::document::cut;
 
 /// All buffers of a file, at least as long as announced.
 pub(super) struct Buffers {
     data: Vec<Rc<[u8]>>,
+    /// True if integers may stand for positions and the like (`KHR_mesh_quantization`).
+    pub(super) quantized: bool,
+    /// Accessors whose sparse indices were found to rise. Any number of primitives may use one.
+    pub(super) rising: RefCell<HashSet<usize>>,
 }
 
 impl Buffers {
     pub(super) fn load(gltf: &Gltf, folder: Option<&Path>) -> Result<Self, GltfError> {
         let mut loader = Loader { blob: gltf.blob.as_deref(), folder, files: HashMap::new() };
         let data = gltf.buffers().map(|buffer| loader.load(&buffer)).collect::<Result<_, _>>()?;
-        Ok(Self { data })
+        let mut extensions = gltf.extensions_used().chain(gltf.extensions_required());
+        let quantized = extensions.any(|name| name == "KHR_mesh_quantization");
+        Ok(Self { data, quantized, rising: RefCell::default() })
     }
 
     pub(super) fn get(&self, buffer: usize) -> &[u8] {
         &self.data[buffer]
+    }
+
+    /// How many bytes there are in all buffers.
+    pub(super) fn size(&self) -> usize {
+        self.data.iter().map(|data| data.len()).sum()
     }
 }
 
@@ -43,7 +56,7 @@ impl Loader<'_> {
                 self.blob.take().filter(|_| index == 0).map(Rc::from).ok_or(GltfError::BufferMissing(index))?
             }
             Source::Uri(uri) => match uri.strip_prefix("data:") {
-                Some(data) => Rc::from(from_data_uri(index, data)?),
+                Some(data) => Rc::from(from_data_uri(data).map_err(|fault| fault.of_buffer(index, uri))?),
                 None => self.file(index, uri)?,
             },
         };
@@ -67,17 +80,31 @@ impl Loader<'_> {
     }
 }
 
-fn from_data_uri(buffer: usize, data: &str) -> Result<Vec<u8>, GltfError> {
-    let refused = || GltfError::BufferUri { buffer, uri: cut(&format!("data:{data}")) };
-    let (kind, text) = data.split_once(',').ok_or_else(refused)?;
-    if !kind.ends_with(";base64") {
-        return Err(refused());
+/// What is wrong with a `data:` uri.
+pub(super) enum DataFault {
+    /// It is not marked as base64.
+    Kind,
+    /// Its base64 is malformed.
+    Base64,
+}
+
+impl DataFault {
+    fn of_buffer(self, buffer: usize, uri: &str) -> GltfError {
+        match self {
+            Self::Kind => GltfError::BufferUri { buffer, uri: cut(uri) },
+            Self::Base64 => GltfError::BufferBase64(buffer),
+        }
     }
-    base64::decode(text.as_bytes()).ok_or(GltfError::BufferBase64(buffer))
+}
+
+/// The bytes of a uri after `data:`.
+pub(super) fn from_data_uri(data: &str) -> Result<Vec<u8>, DataFault> {
+    let (_, text) = data.split_once(',').filter(|(kind, _)| kind.ends_with(";base64")).ok_or(DataFault::Kind)?;
+    base64::decode(text.as_bytes()).ok_or(DataFault::Base64)
 }
 
 /// The path that a relative uri names; `None` if it has a scheme or leaves the folder.
-fn inside(folder: &Path, uri: &str) -> Option<PathBuf> {
+pub(super) fn inside(folder: &Path, uri: &str) -> Option<PathBuf> {
     let path = PathBuf::from(percent_decoded(uri)?);
     let stays = path.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir));
     (stays && !uri.contains(':') && path.file_name().is_some()).then(|| folder.join(path))
@@ -97,15 +124,6 @@ fn percent_decoded(uri: &str) -> Option<String> {
         }
     }
     String::from_utf8(bytes).ok().filter(|path| !path.contains('\0'))
-}
-
-/// A uri for a message.
-fn cut(uri: &str) -> String {
-    const LONGEST: usize = 60;
-    match uri.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}...", &uri[..end]),
-        None => uri.into(),
-    }
 }
 
 #[cfg(test)]

@@ -1,23 +1,78 @@
 //! What can be wrong with a glTF file.
 
+use std::fmt;
 use std::path::PathBuf;
 
 /// Why a glTF file cannot be read. Indices are those of the file's arrays, from 0.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum GltfError {
-    /// The JSON or the binary container is malformed, or an extension is required that is not known.
+    /// The JSON or the binary container is malformed.
     #[error("not readable as glTF 2.0: {0}")]
     Format(String),
+    /// The file cannot be understood without an extension that is not known.
+    #[error("the file requires the extension {0}, which is not read; export it again without that extension")]
+    Extension(String),
+    /// Meshes are compressed.
+    #[error("the meshes are compressed with {0}, which is not read; export them again without compression")]
+    Compressed(&'static str),
     /// The scene has no triangles.
     #[error("no triangles in the scene")]
     NoTriangles,
     /// More triangles than a control cage can have.
     #[error("more than {0} triangle corners in the scene; that is no control cage")]
     TooMany(usize),
+    /// More data than the bytes of the file can be meant for.
+    #[error("more than {0} numbers in joints, morph targets, uv sets and animations; that is no control cage")]
+    TooMuch(usize),
     /// The nodes are not a tree.
     #[error("node {0} is reached twice; the nodes of a scene must form a tree")]
     NodeTwice(usize),
+    /// A transform with numbers that 32-bit floats cannot hold.
+    #[error("node {0} has a transform with infinite numbers")]
+    NodeTransform(usize),
+    /// A joint outside of all trees of nodes.
+    #[error("skin {skin} joint {joint} is node {node}, which is in no tree of nodes")]
+    SkinNode {
+        /// The skin.
+        skin: usize,
+        /// The joint.
+        joint: usize,
+        /// Its node.
+        node: usize,
+    },
+    /// A skin without joints, or with more joints than inverse bind matrices.
+    #[error("skin {skin} has {joints} joints and {matrices} inverse bind matrices; it needs a matrix for each joint")]
+    SkinMatrices {
+        /// The skin.
+        skin: usize,
+        /// The number of joints.
+        joints: usize,
+        /// The number of matrices.
+        matrices: usize,
+    },
+    /// Primitives of one mesh with different numbers of morph targets.
+    #[error("mesh {mesh} primitive {primitive} has {found} morph targets, but those before it have {due}")]
+    Targets {
+        /// The mesh.
+        mesh: usize,
+        /// The primitive.
+        primitive: usize,
+        /// How many targets it has.
+        found: usize,
+        /// How many it should have.
+        due: usize,
+    },
+    /// An animation that cannot be played.
+    #[error("animation {animation} channel {channel} {fault}")]
+    Channel {
+        /// The animation.
+        animation: usize,
+        /// The channel.
+        channel: usize,
+        /// What is wrong with it.
+        fault: String,
+    },
     /// A buffer without a place to read it from.
     #[error("buffer {0} has no uri, and the file has no binary part for it")]
     BufferMissing(usize),
@@ -62,15 +117,13 @@ pub enum GltfError {
         /// The primitive.
         primitive: usize,
     },
-    /// A primitive whose data cannot be read.
-    #[error("mesh {mesh} primitive {primitive}, {attribute}: accessor {accessor} {error}")]
+    /// Data that cannot be read.
+    #[error("{place}, {attribute}: accessor {accessor} {error}")]
     Accessor {
-        /// The mesh.
-        mesh: usize,
-        /// The primitive.
-        primitive: usize,
-        /// `POSITION`, `TEXCOORD_0` or `indices`.
-        attribute: &'static str,
+        /// What uses the accessor.
+        place: GltfPlace,
+        /// What for: `POSITION`, `indices`, `inverseBindMatrices`, `input`.
+        attribute: String,
         /// The accessor.
         accessor: usize,
         /// What is wrong with it.
@@ -88,6 +141,37 @@ pub enum GltfError {
     },
 }
 
+/// What uses an accessor.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum GltfPlace {
+    /// A primitive of a mesh.
+    Primitive {
+        /// The mesh.
+        mesh: usize,
+        /// The primitive.
+        primitive: usize,
+    },
+    /// A skin.
+    Skin(usize),
+    /// A sampler of an animation.
+    Sampler {
+        /// The animation.
+        animation: usize,
+        /// The sampler.
+        sampler: usize,
+    },
+}
+
+impl fmt::Display for GltfPlace {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Primitive { mesh, primitive } => write!(f, "mesh {mesh} primitive {primitive}"),
+            Self::Skin(skin) => write!(f, "skin {skin}"),
+            Self::Sampler { animation, sampler } => write!(f, "animation {animation} sampler {sampler}"),
+        }
+    }
+}
+
 /// What is wrong with an accessor; to be read after its name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -99,6 +183,12 @@ pub enum AccessorError {
         found: String,
         /// What is due.
         expected: &'static str,
+    },
+    /// Integers where only the extension for them allows them.
+    #[error("holds {found}, which the file may do only if it lists KHR_mesh_quantization in extensionsRequired")]
+    NotQuantized {
+        /// What it holds.
+        found: String,
     },
     /// The elements end beyond the buffer or its view.
     #[error("needs {needed} bytes of a view with {available}")]
@@ -122,6 +212,16 @@ pub enum AccessorError {
         /// The distance of elements.
         stride: usize,
     },
+    /// Elements at odd places, which a damaged offset is the likely reason for.
+    #[error("starts at byte {offset} of its buffer with a stride of {stride}; both must be multiples of {alignment}")]
+    Alignment {
+        /// The first byte, from the start of the buffer.
+        offset: u64,
+        /// The distance of elements.
+        stride: usize,
+        /// The size of a component.
+        alignment: usize,
+    },
     /// An element is asked for that does not exist.
     #[error("has {count} elements, but element {index} is used")]
     Index {
@@ -129,5 +229,29 @@ pub enum AccessorError {
         count: usize,
         /// The element.
         index: u32,
+    },
+    /// Replaced elements whose indices do not rise within the accessor.
+    #[error("has sparse indices that do not rise below {count}, first the one of number {position}")]
+    Sparse {
+        /// How many elements there are.
+        count: usize,
+        /// The first sparse value at fault.
+        position: usize,
+    },
+    /// An element with a value that makes no sense.
+    #[error("has the element {index}, which {fault}")]
+    Value {
+        /// The element.
+        index: u32,
+        /// What is wrong with it.
+        fault: String,
+    },
+    /// Another number of elements than what uses them needs.
+    #[error("has {found} elements, but {due} are due")]
+    Count {
+        /// How many there are.
+        found: usize,
+        /// How many there should be.
+        due: usize,
     },
 }

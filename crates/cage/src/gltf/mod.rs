@@ -1,13 +1,19 @@
 //! glTF 2.0, as `.gltf` with its buffers or as `.glb`.
 //!
-//! Triangles are taken as they are, in scene placement. Vertices that exporters split at seams of normals and uv are welded again
-//! by exact position, and uv are kept per corner. The `gltf` crate reads the JSON and checks references inside it; everything
-//! about bytes is checked here, because the crate reads wrong component types silently.
+//! Triangles are taken in scene placement and become polygons again ([`PolygonRecovery`]). Vertices that exporters split at seams of
+//! normals and uv are welded by position, and uv are kept per corner. What moves vertices becomes a [`Rig`](crate::Rig), materials an
+//! [`Appearance`](crate::Appearance). The `gltf` crate reads the JSON and checks references inside it; everything about bytes is
+//! checked here, because the crate reads wrong component types silently.
 
 mod accessor;
+mod animation;
 mod base64;
 mod buffers;
+mod document;
 mod error;
+mod material;
+mod motion;
+mod polygons;
 mod primitive;
 mod scene;
 mod soup;
@@ -16,78 +22,141 @@ mod tests;
 
 use std::path::Path;
 
-use ::gltf::json::Root;
-use ::gltf::json::validation::Checked;
-use ::gltf::{Document, Gltf, Semantic};
+use ::gltf::Gltf;
 
-pub use error::{AccessorError, GltfError};
+pub use error::{AccessorError, GltfError, GltfPlace};
+pub use polygons::{PolygonRecovery, PolygonReport};
 
-use crate::{Cage, CageError, ReadError, Warning};
+use crate::{Appearance, Cage, CageError, ReadError, Rig, Warning};
 use buffers::Buffers;
-use soup::{Soup, Weld};
+use motion::{Budget, Motion};
+use primitive::Context;
+use scene::Scene;
+use soup::{Assembled, Assembly, Soup, Weld};
+
+/// How glTF files become cages.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct GltfDesc {
+    /// Which signs of polygons are believed; all by default.
+    pub polygons: PolygonRecovery,
+    /// Vertices at most this far apart, in units of the scene, become one; by default 0, only equal ones.
+    pub weld_tolerance: f64,
+}
 
 /// Reads the bytes of a glTF file, JSON or binary; `name` is the name of the file for messages, `folder` where its external buffers are.
 ///
 /// # Errors
 /// [`ReadError::Gltf`] for a malformed file, [`ReadError::Refused`] for a mesh that cannot be a cage.
-pub fn read_gltf(bytes: &[u8], name: &str, folder: Option<&Path>) -> Result<Cage, ReadError> {
-    let soup = read_soup(bytes, folder).map_err(|error| ReadError::Gltf { file: name.into(), error })?;
-    build(&soup).map_err(|error| ReadError::Refused { file: name.into(), line: None, error })
+pub fn read_gltf(bytes: &[u8], name: &str, folder: Option<&Path>, desc: &GltfDesc) -> Result<Cage, ReadError> {
+    let file = File::read(bytes, folder).map_err(|error| ReadError::Gltf { file: name.into(), error })?;
+    file.build(desc).map_err(|error| ReadError::Refused { file: name.into(), line: None, error })
 }
 
-fn read_soup(bytes: &[u8], folder: Option<&Path>) -> Result<Soup, GltfError> {
-    let gltf = parse(bytes)?;
-    let buffers = Buffers::load(&gltf, folder)?;
-    let mut soup = Soup::default();
-    for placed in scene::placed_meshes(&gltf)? {
-        primitive::add_mesh(&placed, &buffers, &mut soup)?;
-    }
-    if soup.is_empty() { Err(GltfError::NoTriangles) } else { Ok(soup) }
+/// What was read of a file.
+struct File {
+    soup: Soup,
+    /// Materials and images; faces come later.
+    appearance: Appearance,
+    /// The material in `appearance` of each material of the file.
+    materials: Vec<u32>,
+    /// Nodes, joints and animations where something moves; vertices come later.
+    rig: Option<Rig>,
 }
 
-fn parse(bytes: &[u8]) -> Result<Gltf, GltfError> {
-    // The crate subtracts the size of the header from the length without a check.
-    if let Some(header) = bytes.strip_prefix(b"glTF") {
-        let length = header.get(4..8).map(|l| u32::from_le_bytes([l[0], l[1], l[2], l[3]]));
-        if length.is_none_or(|length| length < 20) {
-            return Err(GltfError::Format("the header of the binary file is cut short".into()));
+impl File {
+    fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Self, GltfError> {
+        let gltf = document::parse(bytes)?;
+        let buffers = Buffers::load(&gltf, folder)?;
+        let scene = Scene::new(&gltf)?;
+        let motion = Motion::new(&gltf, &scene, &buffers)?;
+        let mut context = Context { scene: &scene, buffers: &buffers, motion, budget: Budget::default() };
+        let mut soup = Soup::default();
+        for placed in &scene.meshes {
+            primitive::add_mesh(placed, &mut context, &mut soup)?;
         }
+        if soup.is_empty() {
+            return Err(GltfError::NoTriangles);
+        }
+        let Context { motion, mut budget, .. } = context;
+        let (appearance, materials) = material::read(&gltf, &buffers, folder, &mut soup);
+        let rig = match motion {
+            Some(motion) => Some(read_rig(&gltf, &scene, &buffers, motion, &soup, &mut budget)?),
+            None => None,
+        };
+        Ok(Self { soup, appearance, materials, rig })
     }
-    let Gltf { document, blob } = Gltf::from_slice_without_validation(bytes).map_err(malformed)?;
-    let json = document.into_json();
-    check_positions(&json)?;
-    Ok(Gltf { document: Document::from_json(json).map_err(malformed)?, blob })
-}
 
-/// A message of the crate in one line.
-fn malformed(error: ::gltf::Error) -> GltfError {
-    let lines = error.to_string();
-    GltfError::Format(
-        lines.split(['\n', ';']).map(str::trim).filter(|line| !line.is_empty()).collect::<Vec<_>>().join("; "),
-    )
-}
-
-/// The validation of the crate looks up the positions of a primitive without a check.
-fn check_positions(root: &Root) -> Result<(), GltfError> {
-    for (mesh, primitives) in root.meshes.iter().map(|mesh| &mesh.primitives).enumerate() {
-        for (primitive, attributes) in primitives.iter().map(|primitive| &primitive.attributes).enumerate() {
-            let accessor = attributes.get(&Checked::Valid(Semantic::Positions));
-            if accessor.is_none_or(|accessor| accessor.value() >= root.accessors.len()) {
-                return Err(GltfError::NoPositions { mesh, primitive });
+    /// Welds across the whole scene if that is a manifold mesh, else node by node: objects that merely touch stay apart. If polygons
+    /// keep the cage from being manifold, triangles are tried.
+    fn build(&self, desc: &GltfDesc) -> Result<Cage, CageError> {
+        let mut recovery = desc.polygons;
+        loop {
+            let mut has_polygons = false;
+            let mut result = Err(CageError::NoFaces);
+            for weld in [Weld::Scene, Weld::Nodes] {
+                if weld == Weld::Nodes && self.soup.parts() == 1 {
+                    break;
+                }
+                let assembly = Assembly { weld, tolerance: desc.weld_tolerance, recovery };
+                let mut assembled = self.soup.assemble(assembly);
+                has_polygons |= assembled.has_polygons;
+                let warnings = &mut assembled.desc.warnings;
+                if weld == Weld::Nodes {
+                    warnings.push(Warning::WeldedByNode(self.soup.parts()));
+                }
+                if recovery != desc.polygons {
+                    warnings.push(Warning::PolygonsNotUsed);
+                }
+                result = self.finish(assembled);
+                if !matches!(result, Err(CageError::Topology(_))) {
+                    return result;
+                }
             }
+            if !has_polygons {
+                return result;
+            }
+            recovery = PolygonRecovery::NONE;
         }
     }
-    Ok(())
+
+    fn finish(&self, assembled: Assembled) -> Result<Cage, CageError> {
+        let Assembled { mut desc, points, materials, more_uv, .. } = assembled;
+        let appearance = &self.appearance;
+        if !appearance.materials.is_empty() || !more_uv.is_empty() {
+            let own = |m: u32| self.materials.get(m as usize).copied().unwrap_or(crate::NONE);
+            let face_materials = materials.into_iter().map(own).collect();
+            desc.appearance = Some(Appearance { face_materials, more_uv, ..appearance.clone() });
+        }
+        desc.rig = self.rig.as_ref().map(|rig| self.bind(rig.clone(), &points));
+        Cage::new(desc)
+    }
+
+    /// Gives a rig the vertices that were made from these points.
+    fn bind(&self, mut rig: Rig, points: &[u32]) -> Rig {
+        rig.morph_sets = self.soup.morph_sets(points);
+        let influences = || points.iter().map(|&point| &self.soup.influences[point as usize]);
+        let used = influences().map(|all| all.iter().filter(|(_, weight)| *weight > 0.0).count()).max();
+        rig.influences = [1, 4, 8].into_iter().find(|&room| used <= Some(room)).unwrap_or(8);
+        rig.joint_indices =
+            influences().flat_map(|all| all[..rig.influences].iter().map(|(joint, _)| *joint)).collect();
+        rig.joint_weights =
+            influences().flat_map(|all| all[..rig.influences].iter().map(|(_, weight)| *weight)).collect();
+        rig.bind_positions = points.iter().map(|&point| self.soup.bind[point as usize]).collect();
+        rig
+    }
 }
 
-/// Welds across the whole scene if that is a manifold mesh, else node by node: objects that merely touch stay apart.
-fn build(soup: &Soup) -> Result<Cage, CageError> {
-    match Cage::new(soup.assemble(Weld::Scene)) {
-        Err(CageError::Topology(_)) if soup.parts() > 1 => {
-            let mut desc = soup.assemble(Weld::Nodes);
-            desc.warnings.push(Warning::WeldedByNode(soup.parts()));
-            Cage::new(desc)
-        }
-        result => result,
-    }
+/// The rig of a scene, still without vertices.
+fn read_rig(
+    gltf: &Gltf,
+    scene: &Scene,
+    buffers: &Buffers,
+    motion: Motion,
+    soup: &Soup,
+    budget: &mut Budget,
+) -> Result<Rig, GltfError> {
+    let mut rig =
+        Rig { nodes: scene.nodes.clone(), joints: motion.joints, morph_sets: soup.morph_sets(&[]), ..Rig::default() };
+    rig.animations = animation::read(gltf, scene, buffers, &rig, budget)?;
+    Ok(rig)
 }
