@@ -554,3 +554,20 @@ fn what_is_not_text_is_refused_as_such() {
         assert!(error.contains("not a text OBJ file"), "{error}");
     }
 }
+
+mod documentation {
+    use super::*;
+
+    #[test]
+    fn the_documented_example_is_a_cage_with_its_tags() {
+        let text = include_str!("../../../../docs/formats.md");
+        let example = text.split("```").find(|block| block.starts_with("\nv -1")).expect("an example");
+        let cage = read(example);
+        let tags = cage.tags();
+        assert_eq!((tags.creases.len(), tags.corners.len(), &tags.holes[..]), (4, 1, &[3][..]));
+        let each = "t crease 8/4/0 2 3 3 5 5 4 4 2 10 8 6 4";
+        assert!(text.contains(&format!("`{each}`")));
+        let old = example.lines().find(|line| line.starts_with("t crease")).expect("creases");
+        assert_eq!(read(&example.replace(old, each)).tags().creases[3].sharpness, 4.0);
+    }
+}

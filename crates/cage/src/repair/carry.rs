@@ -1,5 +1,7 @@
 //! From corners back to a description, with all that belongs to its elements.
 
+use std::collections::HashSet;
+
 use super::fans::Fans;
 use super::loops::Loops;
 use super::report::RepairReport;
@@ -99,7 +101,8 @@ pub(super) fn tags(desc: &CageDesc, loops: &Loops, fans: &Fans, report: &mut Rep
 }
 
 /// A crease goes to all edges that its edge became; one whose vertices are joined by no edge any more goes where others at their
-/// places are.
+/// places are. Of several creases of one edge only the first goes to more than one: a few lines must not ask for a product of
+/// tags and faces.
 fn carry_creases(desc: &CageDesc, loops: &Loops, fans: &Fans, dropped: &mut usize) -> Vec<Crease> {
     if desc.tags.creases.is_empty() {
         return Vec::new();
@@ -117,12 +120,15 @@ fn carry_creases(desc: &CageDesc, loops: &Loops, fans: &Fans, dropped: &mut usiz
         place_of[v as usize] = place;
     }
     let place = |v: u32| place_of.get(v as usize).copied().unwrap_or(NONE);
-    let mut creases = Vec::new();
+    let (mut creases, mut seen) = (Vec::new(), HashSet::new());
     for crease in &desc.tags.creases {
         let [a, b] = crease.vertices;
         let mut found = half_edges_between(&by_vertices, [a, b]);
         if found.is_empty() {
             found = half_edges_between(&by_places, [a, b].map(place));
+        }
+        if found.first().is_some_and(|&(_, first)| !seen.insert(first)) {
+            found = &found[..1];
         }
         *dropped += usize::from(found.is_empty());
         let start = |h: u32| [h, loops.next(h)].map(|c| fans.vertices[c as usize]);
@@ -148,7 +154,7 @@ fn half_edges_between(index: &[([u32; 2], u32)], [a, b]: [u32; 2]) -> &[([u32; 2
     &index[start..start + len]
 }
 
-/// A corner goes to all vertices that its vertex became.
+/// A corner goes to all vertices that its vertex became; of several corners of one vertex only the first goes to more than one.
 fn carry_corners(desc: &CageDesc, loops: &Loops, fans: &Fans, dropped: &mut usize) -> Vec<Corner> {
     if desc.tags.corners.is_empty() {
         return Vec::new();
@@ -156,10 +162,11 @@ fn carry_corners(desc: &CageDesc, loops: &Loops, fans: &Fans, dropped: &mut usiz
     let mut pairs: Vec<(u32, u32)> = loops.vertices.iter().copied().zip(fans.vertices.iter().copied()).collect();
     pairs.sort_unstable();
     pairs.dedup();
-    let mut corners = Vec::new();
+    let (mut corners, mut seen) = (Vec::new(), HashSet::new());
     for corner in &desc.tags.corners {
         let start = pairs.partition_point(|pair| pair.0 < corner.vertex);
-        let found = pairs[start..].iter().take_while(|pair| pair.0 == corner.vertex);
+        let most = if seen.insert(corner.vertex) { usize::MAX } else { 1 };
+        let found = pairs[start..].iter().take_while(|pair| pair.0 == corner.vertex).take(most);
         let before = corners.len();
         corners.extend(found.map(|&(_, vertex)| Corner { vertex, ..*corner }));
         *dropped += usize::from(corners.len() == before);

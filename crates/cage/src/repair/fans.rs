@@ -81,11 +81,14 @@ impl Fans {
             .into_par_iter()
             .map(|f| {
                 let row = loops.row(f);
-                let visits = |c: &usize| self.vertices[row.clone()].iter().filter(|&&v| v == self.vertices[*c]).count();
-                if !crate::topology::repeats(&self.vertices[row.clone()]) {
+                let vertices = &self.vertices[row.clone()];
+                if !crate::topology::repeats(vertices) {
                     return Vec::new();
                 }
-                let twice = row.clone().filter(|c| visits(c) > 1).map(|c| c as u32);
+                let mut sorted = vertices.to_vec();
+                sorted.sort_unstable();
+                let is_repeated = |v: u32| sorted.get(sorted.partition_point(|&w| w < v) + 1) == Some(&v);
+                let twice = row.filter(|&c| is_repeated(self.vertices[c])).map(|c| c as u32);
                 twice.flat_map(|c| [c, loops.prev(c)]).collect()
             })
             .filter(|conflict: &Vec<u32>| !conflict.is_empty())

@@ -58,8 +58,13 @@ impl Pairs {
             }
         }
         let turned = winding.minority();
-        for group in groups.iter().filter(|group| group.len() > 2) {
-            self.join_wedges(group, desc, loops, &turned);
+        let crowds: Vec<&Vec<u32>> = groups.iter().filter(|group| group.len() > 2).collect();
+        if !crowds.is_empty() {
+            // Once for all edges: a face may have many.
+            let normals: Vec<DVec3> =
+                (0..loops.face_count() as u32).into_par_iter().map(|f| normal(f, desc, loops)).collect();
+            let axes = |group: &[u32]| angles(group, &normals, desc, loops);
+            crowds.into_iter().for_each(|group| self.join_wedges(group, &axes(group), loops, &turned));
         }
         turned
     }
@@ -110,14 +115,11 @@ impl Pairs {
     /// Pairs neighbours around an edge with many faces. Seen along the edge, from its lower to its higher place, the normal of a
     /// face whose half-edge runs that way points to rising angles, so the inside is at falling angles; of the others at rising
     /// ones. Pairs with the inside between them thus are nested as brackets are, around a circle.
-    fn join_wedges(&mut self, group: &[u32], desc: &CageDesc, loops: &Loops, turned: &[bool]) {
+    fn join_wedges(&mut self, group: &[u32], angles: &[f64], loops: &Loops, turned: &[bool]) {
         let opens = |h: u32| !(loops.ends(h).1 ^ turned[loops.faces[h as usize] as usize]);
-        let mut around: Vec<(f64, bool, u32)> = angles(group, desc, loops)
-            .into_iter()
-            .zip(group)
-            // At equal angles a bracket that closes comes first: two faces back to back belong to different neighbours.
-            .map(|(angle, &h)| (angle, opens(h), h))
-            .collect();
+        // At equal angles a bracket that closes comes first: two faces back to back belong to different neighbours.
+        let mut around: Vec<(f64, bool, u32)> =
+            angles.iter().zip(group).map(|(&angle, &h)| (angle, opens(h), h)).collect();
         around.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)).then(a.2.cmp(&b.2)));
         let mut open: Vec<u32> = Vec::new();
         for round in 0..2 {
@@ -141,23 +143,28 @@ impl Pairs {
 
 /// The angles of faces around the edge that their half-edges have in common, anticlockwise seen against its direction, from its
 /// lower to its higher place.
-fn angles(group: &[u32], desc: &CageDesc, loops: &Loops) -> Vec<f64> {
+fn angles(group: &[u32], normals: &[DVec3], desc: &CageDesc, loops: &Loops) -> Vec<f64> {
     let at = |place: u32| desc.positions[place as usize];
     let [low, high] = loops.ends(group[0]).0.map(at);
     let axis = direction(high - low);
     let x = axis.any_orthonormal_vector();
     let y = axis.cross(x);
     let angle = |&h: &u32| {
-        let row = &loops.places[loops.row(loops.faces[h as usize])];
-        let normal: DVec3 = row.windows(2).map(|pair| (at(pair[0]) - low).cross(at(pair[1]) - low)).sum::<DVec3>()
-            + (at(row[row.len() - 1]) - low).cross(at(row[0]) - low);
         // Turning the face over turns both its normal and its half-edge.
         let along = if loops.ends(h).1 { axis } else { -axis };
-        let inward = direction(normal).cross(along);
+        let inward = normals[loops.faces[h as usize] as usize].cross(along);
         let angle = inward.dot(y).atan2(inward.dot(x));
         if angle.partial_cmp(&0.0) == Some(Ordering::Equal) { 0.0 } else { angle }
     };
     group.iter().map(angle).collect()
+}
+
+/// The unit normal of a face by the method of Newell.
+fn normal(f: u32, desc: &CageDesc, loops: &Loops) -> DVec3 {
+    let row = &loops.places[loops.row(f)];
+    let first = desc.positions[row[0] as usize];
+    let corner = |place: u32| desc.positions[place as usize] - first;
+    direction(row.windows(2).map(|pair| corner(pair[0]).cross(corner(pair[1]))).sum())
 }
 
 /// A vector at unit length; x if it has none.

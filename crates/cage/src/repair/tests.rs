@@ -330,3 +330,30 @@ fn any_polygons_become_a_cage_and_stay_one() {
     }
     assert!(cages > 4000, "{cages}");
 }
+
+#[test]
+fn crowds_take_no_square_of_time() {
+    // Triangles around one edge, and as many creases on it.
+    let n = 20_000;
+    let mut text = String::from("v 0 0 0\nv 0 0 1\n");
+    for i in 0..n {
+        let angle = f64::from(i) / f64::from(n) * std::f64::consts::TAU;
+        text += &format!("v {} {} 0\nf 1 2 {}\nt crease 2/1/0 0 1 2\n", angle.cos(), angle.sin(), i + 3);
+    }
+    let cage = repaired(&text);
+    assert_eq!((cage.face_count(), report(&cage).crowded_edges.total()), (n as usize, 1));
+    // Three polygons with a common rim.
+    let mut text = String::new();
+    let mut rim = String::new();
+    for i in 0..n {
+        let angle = f64::from(i) / f64::from(n) * std::f64::consts::TAU;
+        text += &format!("v {} {} 0\n", angle.cos(), angle.sin());
+        rim += &format!(" {}", i + 1);
+    }
+    text += "v 0 0 0\nv 0 0 1\n";
+    let cage = repaired(&format!("{text}f{rim}\nf{rim} {}\nf{rim} {}\n", n + 1, n + 2));
+    assert_eq!(cage.face_count(), 3);
+    // A polygon that visits one vertex over and over.
+    let loops: String = (0..n).map(|i| format!(" {} {} {}", n + 1, i + 1, (i + 1) % n + 1)).collect();
+    assert_eq!(repaired(&format!("{text}f{loops}\n")).face_count(), 1);
+}
