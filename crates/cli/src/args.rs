@@ -1,11 +1,11 @@
 //! The command line as a whole; each command's own options are in its file under `commands`.
 
-use crate::commands::{check, compare, export, inspect, render, sample};
+use crate::commands::{check, compare, export, inspect, render, repair, sample};
 use clap::{ArgAction, Args, Parser, Subcommand};
 
 /// Catmull-Clark surfaces through Vulkan's tessellation stages, from the command line.
 ///
-/// Reads a control cage (OBJ, glTF), puts its Catmull-Clark surface through tessellation shaders and gives you a
+/// Reads a control cage (OBJ, PLY, OFF, glTF), puts its Catmull-Clark surface through tessellation shaders and gives you a
 /// picture, triangles, points, or the proof that the surface has no cracks. No window is needed.
 #[derive(Parser, Debug)]
 #[command(name = "osculate", version, after_help = EXAMPLES, subcommand_value_name = "COMMAND")]
@@ -52,6 +52,7 @@ pub(crate) enum Command {
     Export(export::ExportArgs),
     Check(check::CheckArgs),
     Inspect(inspect::InspectArgs),
+    Repair(repair::RepairArgs),
     Compare(compare::CompareArgs),
 }
 

@@ -1,20 +1,24 @@
 //! Reading a cage and deciding which boundary rule applies to it.
 
 use crate::failure::Failure;
+use crate::options::ReadArgs;
 use clap::{Args, ValueEnum};
 use osculate::{EngineError, PlanError};
-use osculate_cage::{BoundaryRule, Cage, ReadError};
-use std::path::PathBuf;
+use osculate_cage::{BoundaryRule, Cage, CageError, LimitError, ReadDesc, ReadError};
+use std::path::{Path, PathBuf};
 
 /// The cage and what happens at its boundary.
 #[derive(Args, Debug)]
 pub(crate) struct InputArgs {
-    /// The control cage: .obj, .gltf or .glb.
+    /// The control cage: .obj, .ply, .off, .gltf or .glb.
     pub(crate) file: PathBuf,
 
     /// What happens where the cage ends. Default: what the file's tags say, else edge-and-corner.
     #[arg(long, value_name = "RULE")]
     boundary: Option<BoundaryArg>,
+
+    #[command(flatten)]
+    read: ReadArgs,
 }
 
 /// Names of the boundary rules.
@@ -59,18 +63,13 @@ impl InputArgs {
     /// Reads the cage, passing its warnings on.
     pub(crate) fn read(&self) -> Result<Input, Failure> {
         let input = self.read_silently()?;
-        for warning in input.cage.warnings() {
-            tracing::warn!("{}: {warning}", self.file.display());
-        }
-        if input.cage.bounds().half_diagonal() == 0.0 {
-            tracing::warn!("{}: all vertices are at the same place; the surface is a point", self.file.display());
-        }
+        warn(&self.file, &input.cage);
         Ok(input)
     }
 
     /// Reads the cage for a command whose result holds the warnings.
     pub(crate) fn read_silently(&self) -> Result<Input, Failure> {
-        let cage = Cage::read(&self.file).map_err(refusal)?;
+        let cage = read(&self.file, &self.read.desc()?)?;
         let boundary = self.boundary.map(BoundaryRule::from).or(cage.boundary_rule()).unwrap_or_default();
         Ok(Input { cage, boundary })
     }
@@ -93,11 +92,37 @@ impl InputArgs {
     }
 }
 
+/// Reads a cage.
+pub(crate) fn read(file: &Path, desc: &ReadDesc) -> Result<Cage, Failure> {
+    Cage::read_with(file, desc).map_err(|error| refusal(error, desc))
+}
+
+/// Passes the warnings of a cage on.
+pub(crate) fn warn(file: &Path, cage: &Cage) {
+    for warning in cage.warnings() {
+        tracing::warn!("{}: {warning}", file.display());
+    }
+    if cage.bounds().half_diagonal() == 0.0 {
+        tracing::warn!("{}: all vertices are at the same place; the surface is a point", file.display());
+    }
+}
+
 /// The failure for a file that is not read. Messages about what is in it say what to change.
-fn refusal(error: ReadError) -> Failure {
+fn refusal(error: ReadError, desc: &ReadDesc) -> Failure {
+    if let Some(limit) = error.limit() {
+        let option = match limit {
+            LimitError::FileBytes { .. } => "--max-file-size",
+            LimitError::Faces { .. } => "--max-faces",
+            _ => "--max-memory",
+        };
+        return Failure::input(&error).with_hint(format_args!("{option} raises the limit"));
+    }
     match error {
         ReadError::Io { .. } => Failure::unreadable(error),
         ReadError::UnknownFormat { .. } => Failure::input(error).with_hint("convert the model to one of these formats"),
+        ReadError::Refused { error: CageError::Topology(_), .. } if desc.repair.is_none() => {
+            Failure::input(error).with_hint("correct the model, or let --repair make a manifold mesh of it")
+        }
         ReadError::Refused { .. } => Failure::input(error)
             .with_hint("correct the model: a cage is a manifold mesh, and its tags name elements that exist"),
         _ => Failure::input(error).with_hint("correct the file there, or export the model again"),

@@ -11,7 +11,7 @@ use crate::progress::Progress;
 use clap::Args;
 use glam::Vec3;
 use osculate::{CapturedVertex, Engine, Place, Scheme, SubFace, Surface, SurfaceDesc, Tessellation, VertexKey};
-use osculate_cage::Bounds;
+use osculate_cage::{Bounds, Cage};
 use osculate_compare::whole_file;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -98,7 +98,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     with_engine(global, |engine: &Engine| {
         let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
         let progress = Progress::new(global.quiet, surface.plan().patches.len() as u64, "drawing");
-        let drawing = Drawing { surface: &surface, tessellation, progress };
+        let drawing = Drawing { cage: &input.cage, surface: &surface, tessellation, progress };
         let path = &job.output.path;
         drawing.export(job.output.format, path).map_err(|error| error.to(path))
     })?;
@@ -133,6 +133,7 @@ fn spacing(number: f64) -> f64 {
 
 /// A surface about to be drawn into memory.
 struct Drawing<'a> {
+    cage: &'a Cage,
     surface: &'a Surface,
     tessellation: Tessellation,
     progress: Progress,
@@ -181,7 +182,8 @@ impl Drawing<'_> {
         let Place { sub_face: SubFace { face, sub }, st, .. } =
             self.surface.place(vertex.patch, vertex.uv.map(f64::from));
         let (position, normal) = (Vec3::from(vertex.position), Vec3::from(vertex.normal));
-        SoupVertex { position, normal, face: face as i32, sub, st: st.map(|x| x as f32) }
+        let face = self.cage.source_face(face) as i32;
+        SoupVertex { position, normal, face, sub, st: st.map(|x| x as f32) }
     }
 
     /// Hands the triangles on, one by one.

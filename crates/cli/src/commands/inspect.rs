@@ -126,6 +126,9 @@ impl Findings {
         }
         for problem in &cage.problems {
             row("problem", problem);
+            if !problem.hint().is_empty() {
+                row("  hint", &problem.hint());
+            }
         }
         if cage.problems.is_empty() {
             row("problems", &"none");

@@ -5,4 +5,5 @@ pub(crate) mod compare;
 pub(crate) mod export;
 pub(crate) mod inspect;
 pub(crate) mod render;
+pub(crate) mod repair;
 pub(crate) mod sample;

@@ -10,7 +10,8 @@ use crate::samples::exact::Exact;
 use crate::samples::{self, Places};
 use crate::stdout;
 use clap::{Args, ValueEnum};
-use osculate::{Sample, Scheme, Surface, SurfaceDesc, SurfacePoint};
+use osculate::{Sample, Scheme, SubFace, Surface, SurfaceDesc, SurfacePoint};
+use osculate_cage::Cage;
 use osculate_compare::whole_file;
 use osculate_surface::reference::Mesh;
 use std::io::Write;
@@ -22,7 +23,8 @@ use std::path::{Path, PathBuf};
 ///
 /// A quad has sub = -1 and (s,t) = (0,0), (1,0), (1,1), (0,1) at its vertices. Any other face consists of one sub-face per
 /// vertex, sub = 0, 1, ..: (0,0) is the vertex, (1,0) the middle of the edge to the next vertex, (1,1) the centre of the
-/// face, (0,1) the middle of the edge to the previous vertex. Faces count from 0 in file order.
+/// face, (0,1) the middle of the edge to the previous vertex. Faces count from 0 in file
+/// order, before any repair.
 ///
 /// ev = 1: corner on an irregular vertex; do not use du, dv there. Positions and normals at vertices are exact for every
 /// scheme; between them stam is exact everywhere, the others approximate next to irregular vertices.
@@ -135,12 +137,12 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
         Evaluator::Reference => {
             let mesh = Mesh::from(&input.cage);
             let exact = Exact::new(&mesh, input.boundary)?;
-            write_rows(path, places, &|places| exact.evaluate(places), global)?;
+            write_rows(path, &input.cage, places, &|places| exact.evaluate(places), global)?;
         }
         Evaluator::Device(scheme) => with_engine(global, |engine| {
             let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
             let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
-            write_rows(path, places, &|places| Ok(surface.sample(places)?), global)
+            write_rows(path, &input.cage, places, &|places| Ok(surface.sample(places)?), global)
         })?,
     }
     Ok(Verdict::Pass)
@@ -158,14 +160,21 @@ impl PlacesFrom {
 /// Evaluates a batch of places.
 type Evaluate<'a> = &'a dyn Fn(&[SurfacePoint]) -> Result<Vec<Sample>, Failure>;
 
-fn write_rows(path: Option<&Path>, places: Places, evaluate: Evaluate<'_>, global: &GlobalArgs) -> Result<(), Failure> {
+fn write_rows(
+    path: Option<&Path>,
+    cage: &Cage,
+    places: Places,
+    evaluate: Evaluate<'_>,
+    global: &GlobalArgs,
+) -> Result<(), Failure> {
     let count = places.len;
     let progress = Progress::new(global.quiet, count, "sampling");
     let write = |out: &mut dyn Write| -> Result<(), WriteError> {
         writeln!(out, "{}", samples::HEADER)?;
         for batch in places.batches() {
             for (place, found) in batch.iter().zip(evaluate(&batch)?) {
-                samples::write_row(out, place, &found)?;
+                let sub_face = SubFace { face: cage.source_face(place.sub_face.face), ..place.sub_face };
+                samples::write_row(out, &SurfacePoint { sub_face, ..*place }, &found)?;
             }
             progress.advance(batch.len() as u64);
         }

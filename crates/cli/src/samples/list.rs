@@ -23,7 +23,7 @@ pub(crate) fn read(path: &Path, cage: &Cage, drawn: &[bool]) -> Result<Places, F
             continue;
         }
         let place = parse(text).ok_or_else(|| refused(line, format!("{text:?} is not face,sub,s,t")))?;
-        check(&place, cage, drawn).map_err(|why| refused(line, why))?;
+        let place = check(&place, cage, drawn).map_err(|why| refused(line, why))?;
         places.push(place);
     }
     Ok(Places { len: places.len() as u64, iterator: Box::new(places.into_iter()) })
@@ -44,12 +44,15 @@ fn faces(count: usize) -> String {
     if count == 1 { "the only face is 0".into() } else { format!("the faces are 0 to {}", count - 1) }
 }
 
-fn check(place: &SurfacePoint, cage: &Cage, drawn: &[bool]) -> Result<(), String> {
+/// Checks a place, whose face is numbered as in the file, and returns it with the face of the cage.
+fn check(place: &SurfacePoint, cage: &Cage, drawn: &[bool]) -> Result<SurfacePoint, String> {
     let SurfacePoint { sub_face: SubFace { face, sub }, s, t } = *place;
-    if face as usize >= cage.face_count() {
-        return Err(format!("there is no face {face}; {}", faces(cage.face_count())));
-    }
-    let corners = cage.face(face as usize).len();
+    let Some(index) = cage.face_of_source(face) else {
+        let last = cage.source_face(cage.face_count() as u32 - 1);
+        let why = if face < last { "the repair dropped it".into() } else { faces(last as usize + 1) };
+        return Err(format!("there is no face {face}; {why}"));
+    };
+    let corners = cage.face(index as usize).len();
     if !sub_faces(corners).contains(&sub) {
         let subs = if corners == 4 { "-1".to_owned() } else { format!("from 0 to {}", corners - 1) };
         return Err(format!("face {face} has {corners} corners, so sub must be {subs}, not {sub}"));
@@ -57,10 +60,10 @@ fn check(place: &SurfacePoint, cage: &Cage, drawn: &[bool]) -> Result<(), String
     if !((0.0..=1.0).contains(&s) && (0.0..=1.0).contains(&t)) {
         return Err(format!("(s,t) = ({s},{t}) is not in the unit square"));
     }
-    if !drawn[face as usize] {
+    if !drawn[index as usize] {
         return Err(format!("face {face} is not part of the surface: it is a hole, or the boundary rule drops it"));
     }
-    Ok(())
+    Ok(SurfacePoint { sub_face: SubFace { face: index, sub }, s, t })
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ mod device;
 mod export;
 mod inspect;
 mod render;
+mod repair;
 mod sample;
 mod support;
 mod whole;
