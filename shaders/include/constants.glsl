@@ -56,6 +56,7 @@
 #define SHADE_PEER 7
 #define SHADE_REFLECTION 8
 #define SHADE_GAUSSIAN 9
+#define SHADE_DIFFERENCE 10
 
 // Specialization constants.
 #define SPEC_NET_SIZE 0

@@ -80,4 +80,12 @@ vec3 shade_gaussian_color(float product) {
     return shade_diverging(shade_curvature_scale(bend), 0x4d2a86u, 0xa99ccdu, 0xf2b056u, 0xb0530cu);
 }
 
+// A part of a range: off-white for nothing, then yellow, orange and red to dark violet at the end and beyond.
+vec3 shade_difference_color(float part) {
+    const uint COLORS[5] = uint[](0xf4f2eeu, 0xf8d568u, 0xec8a3cu, 0xbf3049u, 0x3d1152u);
+    float x = 4.0 * clamp(part, 0.0, 1.0);
+    uint i = min(uint(x), 3u);
+    return mix(shade_srgb(COLORS[i]), shade_srgb(COLORS[i + 1u]), x - float(i));
+}
+
 #endif

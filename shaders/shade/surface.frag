@@ -83,6 +83,7 @@ void main() {
     // The derivatives bend towards the normal where the surface is hollow, so a sphere has negative mean curvature.
     case SHADE_CURVATURE: rgb = shade_flat(shade_mean_color(-measure.x * frame.radius), n, v); break;
     case SHADE_GAUSSIAN: rgb = shade_flat(shade_gaussian_color(measure.y * frame.radius * frame.radius), n, v); break;
+    case SHADE_DIFFERENCE: rgb = shade_flat(shade_difference_color(measure.x), n, v); break;
     case SHADE_PEER: rgb = shade_peer(); break;
     default: rgb = shade_lit(gl_FrontFacing ? PORCELAIN : INSIDE, n, v); break;
     }

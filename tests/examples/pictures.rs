@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use osculate::{Camera, Device, DeviceDesc, Engine, RenderDesc, Scheme, Shade, Tessellation};
+use osculate::{Cage, Camera, Device, DeviceDesc, Engine, RenderDesc, Scheme, Shade, Tessellation};
 use osculate_compare::Picture;
 use osculate_tests::{legend, picture, zoo};
 
@@ -13,6 +13,7 @@ fn main() {
     for &shade in Shade::ALL {
         write(&format!("shade-{}", shade.name()), &dragon(&engine, [288, 240], |desc| show(desc, shade)));
     }
+    write("shade-difference", &difference(&engine));
     write("cage", &dragon(&engine, [288, 240], |desc| desc.cage = true));
     for (&scheme, shade) in Scheme::ALL.iter().flat_map(|scheme| SCHEME_SHADES.map(|shade| (scheme, shade))) {
         let close = picture::close_up(&engine, "saddle8", scheme, shade, [280, 280]);
@@ -46,13 +47,22 @@ fn write(name: &str, picture: &Picture) {
 /// The dragon as docs/shading.md has it: `--camera 2.57,2.02,3.28:0.13,1.06,-0.22:0,1,0:40`.
 fn dragon(engine: &Engine, size: [u32; 2], change: impl FnOnce(&mut RenderDesc)) -> Picture {
     let cage = zoo::shipped("dragon");
-    let (eye, at) = (DVec3::new(2.57, 2.02, 3.28), DVec3::new(0.13, 1.06, -0.22));
-    let camera =
-        Camera::look_at(eye, at, DVec3::Y, 40f64.to_radians(), cage.bounds()).unwrap_or_else(|error| panic!("{error}"));
     picture::draw(engine, &cage, size, |desc| {
-        desc.camera = camera;
+        desc.camera = dragon_camera(&cage);
         change(desc);
     })
+}
+
+fn dragon_camera(cage: &Cage) -> Camera {
+    let (eye, at) = (DVec3::new(2.57, 2.02, 3.28), DVec3::new(0.13, 1.06, -0.22));
+    Camera::look_at(eye, at, DVec3::Y, 40f64.to_radians(), cage.bounds()).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// How far the dragon under gregory2 is from its limit surface.
+fn difference(engine: &Engine) -> Picture {
+    let cage = zoo::shipped("dragon");
+    let desc = RenderDesc { camera: dragon_camera(&cage), ..RenderDesc::fit(&cage, [288, 240]) };
+    picture::draw_difference(engine, &cage, [Scheme::Gregory2, Scheme::Stam], None, &desc).0
 }
 
 /// The cage over the surface beside the surface alone, at twice the size and halved, which smooths outlines further.

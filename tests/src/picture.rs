@@ -3,7 +3,10 @@
 use std::path::Path;
 
 use glam::DVec3;
-use osculate::{Camera, Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, Tessellation, render};
+use osculate::{
+    Camera, Difference, Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, Tessellation, render,
+    render_difference,
+};
 use osculate_cage::Cage;
 use osculate_compare::{Goldens, Limits, Picture};
 
@@ -33,6 +36,26 @@ pub fn draw_scheme(
     let mut desc = RenderDesc::fit(cage, size);
     change(&mut desc);
     draw_surfaces(engine, &[&surface], &desc)
+}
+
+/// The picture of the distance between two schemes, and what it measured.
+///
+/// # Panics
+/// If it cannot be drawn.
+pub fn draw_difference(
+    engine: &Engine,
+    cage: &Cage,
+    schemes: [Scheme; 2],
+    range: Option<f64>,
+    desc: &RenderDesc,
+) -> (Picture, Difference) {
+    let surfaces = schemes.map(|scheme| {
+        Surface::new(engine, cage, &SurfaceDesc { scheme, ..SurfaceDesc::default() })
+            .unwrap_or_else(|error| panic!("{error}"))
+    });
+    let (drawn, difference) =
+        render_difference(engine, surfaces.each_ref(), desc, range).unwrap_or_else(|error| panic!("{error}"));
+    (Picture::new(drawn.size[0], drawn.size[1], drawn.rgba).unwrap_or_else(|error| panic!("{error}")), difference)
 }
 
 /// The picture of surfaces.

@@ -1,14 +1,14 @@
 //! Drawing surfaces into images.
 
 use osculate_gpu::{
-    BufferDesc, BufferUsage, ColorTarget, DepthTarget, Draw, Format, Image, ImageDesc, ImageUsage, Memory, Recording,
-    RenderPass,
+    Buffer, BufferDesc, BufferUsage, ColorTarget, DepthTarget, Draw, Format, Image, ImageDesc, ImageUsage, Memory,
+    Recording, RenderPass,
 };
 use osculate_shaders::binding;
 
 use crate::alpha::{alpha_multiplied_in, divide_alpha_out};
 use crate::draw::{DEPTH_FORMAT, Output, PipelineKey, Target, runs};
-use crate::evaluate::Grids;
+use crate::evaluate::{GridChunk, Grids};
 use crate::frame::FrameDesc;
 use crate::grid::Layout;
 use crate::{Engine, EngineError, Picture, RenderDesc, Shade, Surface};
@@ -65,11 +65,11 @@ impl<'a> Canvas<'a> {
         } else {
             self.add_patches(surface)?;
         }
-        if self.desc.cage { self.add_cage(surface) } else { Ok(()) }
+        self.add_cage(surface)
     }
 
     /// What becomes of the triangles, in order.
-    pub(crate) fn outputs(&self) -> impl Iterator<Item = Output> + use<> {
+    fn outputs(&self) -> impl Iterator<Item = Output> + use<> {
         let target = self.targets.target;
         let lines = (self.desc.shade == Shade::Wireframe).then_some(Output::Lines(target));
         std::iter::once(Output::Fill(target)).chain(lines)
@@ -102,24 +102,38 @@ impl<'a> Canvas<'a> {
 
     /// Evaluates and draws chunk after chunk, so that only one is in memory.
     fn add_grids(&mut self, surface: &Surface) -> Result<(), EngineError> {
-        let device = self.engine.device();
         let rates = surface.grid_rates(&self.desc.tessellation)?;
         let grids = Grids::new(surface, &rates, self.desc.shade.layout(), Memory::Device)?;
-        let frame = self.frame(surface).upload(device)?;
+        let frame = self.frame(surface).upload(self.engine.device())?;
         for chunk in grids.chunks() {
             let chunk = chunk?;
             let mut recording = Recording::new();
             grids.record(&chunk, &frame, &mut recording)?;
-            let indices = device.upload("grid indices", BufferUsage::INDEX, &chunk.indices)?;
-            for output in self.outputs() {
-                self.draws.push(grids.draw(&chunk, &indices, &frame, output)?);
-            }
-            self.flush(recording)?;
+            self.add_chunk(&grids, &chunk, &frame, recording)?;
         }
         Ok(())
     }
 
-    fn add_cage(&mut self, surface: &Surface) -> Result<(), EngineError> {
+    /// Runs what is recorded, then draws a chunk.
+    pub(crate) fn add_chunk(
+        &mut self,
+        grids: &Grids<'_>,
+        chunk: &GridChunk,
+        frame: &Buffer,
+        recording: Recording,
+    ) -> Result<(), EngineError> {
+        let indices = self.engine.device().upload("grid indices", BufferUsage::INDEX, &chunk.indices)?;
+        for output in self.outputs() {
+            self.draws.push(grids.draw(chunk, &indices, frame, output)?);
+        }
+        self.flush(recording)
+    }
+
+    /// Draws the cage of a surface, if that is asked for.
+    pub(crate) fn add_cage(&mut self, surface: &Surface) -> Result<(), EngineError> {
+        if !self.desc.cage {
+            return Ok(());
+        }
         let target = self.targets.target;
         for (hidden, opacity) in [(true, CAGE_BEHIND), (false, 1.0)] {
             let [r, g, b, _] = CAGE;
@@ -137,7 +151,7 @@ impl<'a> Canvas<'a> {
     }
 
     /// Runs what is recorded, then the draws so far.
-    pub(crate) fn flush(&mut self, mut recording: Recording) -> Result<(), EngineError> {
+    fn flush(&mut self, mut recording: Recording) -> Result<(), EngineError> {
         self.record_pass(&mut recording);
         self.engine.device().run(&recording)?;
         Ok(())

@@ -67,6 +67,9 @@ pub enum EngineError {
         /// The level asked for.
         level: f32,
     },
+    /// A shade that compares two surfaces was asked for with one.
+    #[error("the shade difference compares two surfaces: draw it with render_difference")]
+    OneSurface,
     /// Something was asked for that the device cannot do.
     #[error("device {device:?} cannot {what}: {hint}")]
     Unsupported {

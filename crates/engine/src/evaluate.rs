@@ -39,6 +39,7 @@ pub(crate) struct Grids<'a> {
 }
 
 /// A chunk on the device.
+#[derive(Clone)]
 pub(crate) struct GridChunk {
     /// Receives [`CapturedVertex`] words; what `uv` holds depends on the shade of the frame.
     pub(crate) vertices: Buffer,
@@ -47,6 +48,14 @@ pub(crate) struct GridChunk {
     /// Three vertices for each triangle.
     pub(crate) indices: Vec<u32>,
     bindings: Bindings,
+}
+
+impl GridChunk {
+    /// The same triangles between other vertices.
+    pub(crate) fn with_vertices(&self, vertices: Buffer) -> Self {
+        let bindings = self.bindings.clone().with(binding::GRID_VERTICES, &vertices);
+        Self { vertices, bindings, ..self.clone() }
+    }
 }
 
 impl<'a> Grids<'a> {

@@ -30,10 +30,12 @@ pub enum Shade {
     Gaussian,
     /// The two-sided headlight of comparisons with other renderers, without sRGB encoding.
     Peer,
+    /// The distance to another surface of the same cage: [`crate::render_difference`] draws it.
+    Difference,
 }
 
 impl Shade {
-    /// All of them.
+    /// All that show one surface.
     pub const ALL: &'static [Self] = &[
         Self::Lit,
         Self::Normals,
@@ -60,6 +62,7 @@ impl Shade {
             Self::Curvature => "curvature",
             Self::Gaussian => "gaussian",
             Self::Peer => "peer",
+            Self::Difference => "difference",
         }
     }
 
@@ -76,6 +79,7 @@ impl Shade {
             Self::Curvature => constant::SHADE_CURVATURE,
             Self::Gaussian => constant::SHADE_GAUSSIAN,
             Self::Peer => constant::SHADE_PEER,
+            Self::Difference => constant::SHADE_DIFFERENCE,
         }
     }
 }
@@ -129,8 +133,11 @@ pub struct Picture {
 /// Draws surfaces. All must be of one engine.
 ///
 /// # Errors
-/// If the level is out of range, the picture has no pixels, it or the number of samples exceeds what the device can do, or the device fails.
+/// If the level is out of range, the shade takes two surfaces, the picture has no pixels, it or the number of samples exceeds what the device can do, or the device fails.
 pub fn render(engine: &Engine, surfaces: &[&Surface], desc: &RenderDesc) -> Result<Picture, EngineError> {
+    if desc.shade == Shade::Difference {
+        return Err(EngineError::OneSurface);
+    }
     let mut canvas = Canvas::new(engine, desc)?;
     canvas.prepare(surfaces)?;
     for surface in surfaces {

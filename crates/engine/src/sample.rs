@@ -96,6 +96,11 @@ impl Surface {
         }
     }
 
+    /// How a point is asked for.
+    pub(crate) fn request(&self, point: &SurfacePoint) -> Result<SampleRequest, EngineError> {
+        Ok(self.find(point)?.request)
+    }
+
     /// Raw output of the sampling kernels: position, du, dv, normal of each request, in cage space.
     ///
     /// # Errors

@@ -1,6 +1,7 @@
 //! All cases that need more than one crate, in one program so that they link once and share a device.
 
 mod curvature;
+mod difference;
 mod evaluators;
 mod exactness;
 mod golden;

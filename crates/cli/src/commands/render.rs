@@ -3,13 +3,15 @@
 use crate::args::GlobalArgs;
 use crate::device::with_engine;
 use crate::failure::{Failure, PLACE_HINT, Verdict};
-use crate::input::InputArgs;
+use crate::input::{Input, InputArgs};
 use crate::options::{CameraArgs, Colour, Output, SchemeName, TessellationArgs};
 use crate::progress::Progress;
+use crate::stdout;
 use clap::{Args, ValueEnum};
-use osculate::{Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, render};
+use osculate::{Difference, Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, render, render_difference};
 use osculate_cage::Cage;
 use osculate_compare::Picture;
+use std::fmt;
 use std::path::PathBuf;
 
 /// Draw the surface to a PNG file.
@@ -46,6 +48,14 @@ struct LookArgs {
     /// What the colours mean; docs/shading.md has pictures and the full legends.
     #[arg(long, value_name = "SHADE", default_value = "lit")]
     shade: ShadeArg,
+
+    /// For the shade difference: the scheme that distances are measured to. Default: stam, the exact surface.
+    #[arg(long, value_name = "SCHEME")]
+    against: Option<SchemeName>,
+
+    /// For the shade difference: the distance at which the colours end, in the cage's units. Default: the largest.
+    #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = length)]
+    range: Option<f64>,
 
     /// Draw the edges of the cage too.
     #[arg(long)]
@@ -84,6 +94,8 @@ enum ShadeArg {
     Gaussian,
     /// A two-sided headlight without sRGB encoding, for comparisons with other renderers.
     Peer,
+    /// The distance to another scheme at the same places: off-white is none, dark violet the largest, which is printed.
+    Difference,
 }
 
 impl From<ShadeArg> for Shade {
@@ -99,6 +111,7 @@ impl From<ShadeArg> for Shade {
             ShadeArg::Curvature => Self::Curvature,
             ShadeArg::Gaussian => Self::Gaussian,
             ShadeArg::Peer => Self::Peer,
+            ShadeArg::Difference => Self::Difference,
         }
     }
 }
@@ -107,10 +120,18 @@ const EXAMPLES: &str = "\
 Examples:
   osculate render cube.obj -o cube.png
   osculate render cube.obj -o cube.png --shade patches --cage --size 800x600
+  osculate render cube.obj -o far.png --shade difference --against stam
   osculate render cube.obj -o close.png --camera 2,1,3:0,0,0:0,1,0:30 --adaptive 6 --background white";
 
 /// Grey of the shade `peer`, the same number in all channels of a picture without sRGB encoding.
 const PEER_BACKGROUND: [f32; 4] = [0.1, 0.1, 0.1, 1.0];
+
+fn length(text: &str) -> Result<f64, String> {
+    text.parse()
+        .ok()
+        .filter(|&length: &f64| length.is_finite() && length > 0.0)
+        .ok_or_else(|| "expected a length greater than 0".into())
+}
 
 fn samples(text: &str) -> Result<u32, String> {
     text.parse().ok().filter(|n| [1, 2, 4, 8].contains(n)).ok_or_else(|| "expected 1, 2, 4 or 8".into())
@@ -121,6 +142,8 @@ pub(crate) struct Job {
     input: InputArgs,
     output: Output<()>,
     scheme: Scheme,
+    /// What the shade difference compares with.
+    against: Option<Scheme>,
     look: LookArgs,
     tessellation: TessellationArgs,
     camera: CameraArgs,
@@ -132,6 +155,7 @@ impl RenderArgs {
         Ok(Job {
             output: Output::new(self.output, &[("png", ())])?.apart_from([self.input.file.as_path()])?,
             scheme: self.scheme.in_this_build()?,
+            against: self.look.against()?,
             input: self.input,
             look: self.look,
             tessellation: self.tessellation,
@@ -140,17 +164,27 @@ impl RenderArgs {
     }
 }
 
+impl LookArgs {
+    /// The scheme that the shade difference compares with, for that shade alone.
+    fn against(&self) -> Result<Option<Scheme>, Failure> {
+        if matches!(self.shade, ShadeArg::Difference) {
+            return Ok(Some(self.against.unwrap_or(SchemeName::Stam).in_this_build()?));
+        }
+        let option = self.against.map(|_| "--against").or(self.range.map(|_| "--range"));
+        match option {
+            Some(option) => Err(Failure::usage(format_args!("{option} is for the shade difference alone"))
+                .with_hint("add --shade difference")),
+            None => Ok(None),
+        }
+    }
+}
+
 /// Draws and writes the picture.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let _progress = Progress::waiting(global.quiet, "drawing");
     let input = job.input.read()?;
     let desc = job.desc(&input.cage)?;
-    let surface_desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary) };
-    let draw = |engine: &Engine| {
-        let surface = Surface::new(engine, &input.cage, &surface_desc).map_err(|error| job.input.refuse(error))?;
-        Ok(render(engine, &[&surface], &desc)?)
-    };
-    let drawn = with_engine(global, draw)?;
+    let (drawn, difference) = with_engine(global, |engine: &Engine| job.draw(engine, &input, &desc))?;
     let [width, height] = drawn.size;
     let picture = Picture::new(width, height, drawn.rgba).map_err(Failure::device)?;
     let first = picture.pixels().next();
@@ -162,10 +196,49 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     }
     picture.write(&job.output.path).map_err(|error| Failure::usage(error).with_hint(PLACE_HINT))?;
     tracing::info!("{}: {width} x {height} pixels, {} bytes", job.output.path.display(), job.output.bytes());
+    if let (Some(difference), Some(against)) = (difference, job.against) {
+        let size = 2.0 * input.cage.bounds().half_diagonal();
+        stdout::print_line(Distances { difference, schemes: [job.scheme, against], size })?;
+    }
     Ok(Verdict::Pass)
 }
 
+/// What the colours of the shade difference stand for.
+struct Distances {
+    difference: Difference,
+    schemes: [Scheme; 2],
+    /// Diagonal of the cage's box.
+    size: f64,
+}
+
+impl fmt::Display for Distances {
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let ([from, to], Difference { largest, mean, range }) = (self.schemes, self.difference);
+        let part = if self.size > 0.0 { largest / self.size } else { 0.0 };
+        write!(
+            out,
+            "{from} to {to}: largest distance {largest:.3e} ({part:.1e} of the box's diagonal), mean {mean:.3e}; colours end at {range:.3e}"
+        )
+    }
+}
+
 impl Job {
+    fn draw(
+        &self,
+        engine: &Engine,
+        input: &Input,
+        desc: &RenderDesc,
+    ) -> Result<(osculate::Picture, Option<Difference>), Failure> {
+        let surface = |scheme| {
+            let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
+            Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))
+        };
+        let drawn = surface(self.scheme)?;
+        let Some(against) = self.against else { return Ok((render(engine, &[&drawn], desc)?, None)) };
+        let (picture, found) = render_difference(engine, [&drawn, &surface(against)?], desc, self.look.range)?;
+        Ok((picture, Some(found)))
+    }
+
     fn desc(&self, cage: &Cage) -> Result<RenderDesc, Failure> {
         let camera = self.camera.camera(cage.bounds())?;
         let size = [self.camera.size.width, self.camera.size.height];

@@ -84,6 +84,29 @@ fn pictures_repeat_bit_for_bit() {
 }
 
 #[test]
+fn distances_between_schemes_are_drawn_and_printed() {
+    let folder = folder();
+    let draw = |more: &[&str]| {
+        let fixed = ["render", "cage.obj", "-o", "out.png", "--size", "64x48", "--level", "4", "--shade", "difference"];
+        let ran = osculate(folder.path(), &[&fixed[..], more].concat()).exits(0);
+        assert_eq!(ran.stderr, "");
+        (ran.stdout, load(&folder.path().join("out.png")).unwrap())
+    };
+    let (line, picture) = draw(&[]);
+    assert!(line.starts_with("gregory2 to stam: largest distance ") && line.lines().count() == 1, "{line}");
+    let (near, same) = draw(&["--scheme", "stam", "--against", "stam", "--range", "0.5"]);
+    assert!(near.starts_with("stam to stam: ") && near.contains("colours end at 5.000e-1"), "{near}");
+    assert!(picture != same, "nothing is coloured");
+    let fails = |more: &[&str], part| {
+        osculate(folder.path(), &[&["render", "cage.obj", "-o", "no.png"], more].concat()).fails(2, part);
+    };
+    fails(&["--against", "stam"], "--against is for the shade difference alone");
+    fails(&["--range", "1"], "--range is for the shade difference alone");
+    fails(&["--shade", "difference", "--range", "0"], "greater than 0");
+    fails(&["--shade", "difference", "--against", "table"], "table");
+}
+
+#[test]
 fn what_cannot_be_drawn_exits_before_or_after_reading() {
     let folder = folder();
     let run = |more: &[&str]| osculate(folder.path(), &[&["render", "cage.obj"], more].concat());
