@@ -18,7 +18,7 @@ pub enum Formula {
     /// Eigenbasis and coefficients.
     Stam(Rc<stam::Patch>, Vec<DVec3>),
     /// Bezier points.
-    Biseptic([DVec3; 64]),
+    Biseptic(Box<[DVec3; 64]>),
     /// Points of a quartic Gregory triangle.
     Triangle([DVec3; 15]),
 }
@@ -86,7 +86,7 @@ impl Reader<'_> {
                 Formula::Stam(patch, coefficients)
             }
             PatchKind::Extraordinary { form: PatchForm::Biseptic, valence } => {
-                Formula::Biseptic(array(biseptic::patch(valence).apply(&self.net(record))))
+                Formula::Biseptic(Box::new(array(biseptic::patch(valence).apply(&self.net(record)))))
             }
             PatchKind::Stored { form: PatchForm::Triangle } => Formula::Triangle(array(self.stored(record, 15))),
             PatchKind::Stored { form: PatchForm::Gregory } => Formula::Gregory(array(self.stored(record, 20))),

@@ -6,6 +6,7 @@ mod bless;
 mod cages;
 mod cargo;
 mod pictures;
+mod schemes;
 
 /// Chores of the repository.
 #[derive(Parser)]
@@ -27,6 +28,8 @@ enum Verb {
     },
     /// Draw the pictures of README.md and docs anew.
     Pictures,
+    /// Measure the schemes and print the tables of docs/schemes.md.
+    Schemes,
 }
 
 fn main() -> anyhow::Result<()> {
@@ -35,5 +38,6 @@ fn main() -> anyhow::Result<()> {
         Verb::Cages { check: false } => cages::write(),
         Verb::Cages { check: true } => cages::check(),
         Verb::Pictures => pictures::run(),
+        Verb::Schemes => schemes::run(),
     }
 }
