@@ -105,7 +105,7 @@ impl ReadArgs {
             faces: self.max_faces.unwrap_or(default.faces),
             memory_bytes: self.max_memory.map_or(default.memory_bytes, |bytes| bytes.0),
         };
-        Ok(ReadDesc { repair, creases: self.creases(), limits })
+        Ok(ReadDesc { repair, creases: self.creases(), limits, ..ReadDesc::default() })
     }
 
     fn creases(&self) -> Option<CreaseDesc> {
