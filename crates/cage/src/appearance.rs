@@ -105,6 +105,19 @@ impl Appearance {
         self.materials.get(self.face_materials[f] as usize)
     }
 
+    /// The appearance of other faces: the new face `f` looks like the old face `faces[f]`, the new corner `c` like `corners[c]`.
+    pub(crate) fn gather(&self, faces: &[u32], corners: &[u32]) -> Self {
+        let uv = |uv: &FaceVarying| FaceVarying {
+            values: uv.values.clone(),
+            indices: corners.iter().map(|&c| uv.indices[c as usize]).collect(),
+        };
+        Self {
+            face_materials: faces.iter().map(|&f| self.face_materials[f as usize]).collect(),
+            more_uv: self.more_uv.iter().map(|set| UvSet { set: set.set, uv: uv(&set.uv) }).collect(),
+            ..self.clone()
+        }
+    }
+
     /// Names the first thing that does not fit a cage of that many faces and corners.
     pub(crate) fn check(&self, faces: usize, corners: usize) -> Result<(), &'static str> {
         let within = |&m: &u32| m == NONE || (m as usize) < self.materials.len();

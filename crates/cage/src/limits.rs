@@ -124,6 +124,11 @@ impl Gauge {
         self.add(FACE + CORNER * corners as u64)
     }
 
+    /// Data beside the text of the file.
+    pub(crate) fn bytes(&mut self, bytes: u64) -> Result<(), LimitError> {
+        self.add(bytes)
+    }
+
     fn add(&mut self, bytes: u64) -> Result<(), LimitError> {
         self.bytes = self.bytes.saturating_add(bytes);
         if self.bytes > self.limits.memory_bytes {

@@ -80,7 +80,7 @@ impl Cage {
             FileFormat::Obj => obj::draft(&bytes, &name, desc)?,
             FileFormat::Ply => ply::draft(&bytes, &name, desc)?,
             FileFormat::Off => off::draft(&bytes, &name, desc)?,
-            FileFormat::Gltf => return read_gltf(&bytes, &name, path.parent(), &desc.gltf),
+            FileFormat::Gltf => return read_gltf(&bytes, &name, path.parent(), desc),
         };
         // The text is as large as what was made of it, and no longer needed.
         drop(bytes);

@@ -70,7 +70,7 @@ pub enum Warning {
     #[error("{} at the place of another that moves differently, not welded", plural(*.0, "vertex"))]
     MoveApart(usize),
     /// Polygons of a glTF file that were guessed, or triangles that may have been polygons.
-    #[error("{}", polygons(.0))]
+    #[error("{0}")]
     Polygons(PolygonReport),
     /// The polygons that were found in a glTF scene are no manifold mesh, but its triangles are.
     #[error("polygons found among the triangles are not used, because together they are not manifold")]
@@ -78,24 +78,6 @@ pub enum Warning {
     /// The nodes of a glTF scene touch in a way that is no manifold, so they were not welded to each other.
     #[error("{} welded each by itself, because together they are not manifold", plural(*.0, "node"))]
     WeldedByNode(usize),
-}
-
-fn polygons(report: &PolygonReport) -> String {
-    let &PolygonReport { triangles, marked, by_order, by_shape, left, .. } = report;
-    let sources: Vec<String> = [(marked, "marked"), (by_order, "by order"), (by_shape, "by shape")]
-        .into_iter()
-        .filter(|(n, _)| *n > 0)
-        .map(|(n, how)| format!("{n} {how}"))
-        .collect();
-    let found = match &sources[..] {
-        [] => "no larger polygons".into(),
-        sources => format!("{} ({})", plural(marked + by_order + by_shape, "larger polygon"), sources.join(", ")),
-    };
-    let left = match left {
-        0 => String::new(),
-        _ => format!("; {left} stay as they are: {}", report.left_faces),
-    };
-    format!("{} give {found}{left}", plural(triangles, "triangle"))
 }
 
 fn already(tagged: usize) -> String {

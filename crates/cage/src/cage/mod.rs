@@ -179,7 +179,7 @@ impl Cage {
 
         let (positions, mut source_vertices) = drop_unused_vertices(positions, &mut topology, &mut tags, &mut warnings);
         if let Some(rig) = rig.as_mut().filter(|rig| rig.bind_positions.len() > positions.len()) {
-            rig.renumber_vertices(&source_vertices);
+            rig.gather_vertices(&source_vertices);
         }
         if !origins.is_empty() {
             source_vertices.iter_mut().for_each(|v| *v = origins[*v as usize]);

@@ -8,11 +8,10 @@ use super::GltfError;
 use crate::listed::numbered;
 
 /// Extensions that change nothing about the shape, or that are read.
-const KNOWN: [&str; 8] = [
+const KNOWN: [&str; 7] = [
     "FB_ngon_encoding",
     "KHR_mesh_quantization",
     "KHR_lights_punctual",
-    "KHR_node_visibility",
     "KHR_xmp_json_ld",
     "EXT_lights_image_based",
     "EXT_texture_webp",

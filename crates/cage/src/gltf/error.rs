@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::PathBuf;
 
+use crate::LimitError;
+
 /// Why a glTF file cannot be read. Indices are those of the file's arrays, from 0.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -16,6 +18,9 @@ pub enum GltfError {
     /// Meshes are compressed.
     #[error("the meshes are compressed with {0}, which is not read; export them again without compression")]
     Compressed(&'static str),
+    /// The file asks for more than is allowed.
+    #[error(transparent)]
+    Limit(#[from] LimitError),
     /// The scene has no triangles.
     #[error("no triangles in the scene")]
     NoTriangles,
@@ -143,6 +148,7 @@ pub enum GltfError {
 
 /// What uses an accessor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum GltfPlace {
     /// A primitive of a mesh.
     Primitive {

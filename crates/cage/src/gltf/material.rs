@@ -154,8 +154,8 @@ fn image_of(texture: &json::Texture) -> Option<usize> {
         return Some(own);
     }
     let extensions = &texture.extensions.as_ref()?.others;
-    let sources = extensions.values().filter_map(|extension| extension.get("source")?.as_u64());
-    sources.last().map(|source| source as usize)
+    let mut sources = extensions.values().filter_map(|extension| extension.get("source")?.as_u64());
+    sources.next().map(|source| source as usize)
 }
 
 /// The transform of `KHR_texture_transform`, and the set of texture coordinates if it names one: scaled, then turned

@@ -27,7 +27,8 @@ use ::gltf::Gltf;
 pub use error::{AccessorError, GltfError, GltfPlace};
 pub use polygons::{PolygonRecovery, PolygonReport};
 
-use crate::{Appearance, Cage, CageError, ReadError, Rig, Warning};
+use crate::limits::Gauge;
+use crate::{Appearance, Cage, CageDesc, CageError, Limits, ReadDesc, ReadError, Rig, Warning, draft};
 use buffers::Buffers;
 use motion::{Budget, Motion};
 use primitive::Context;
@@ -46,9 +47,13 @@ pub struct GltfDesc {
 /// Reads the bytes of a glTF file, JSON or binary; `name` is the name of the file for messages, `folder` where its external buffers are.
 ///
 /// # Errors
-/// [`ReadError::Gltf`] for a malformed file, [`ReadError::Refused`] for a mesh that cannot be a cage.
-pub fn read_gltf(bytes: &[u8], name: &str, folder: Option<&Path>, desc: &GltfDesc) -> Result<Cage, ReadError> {
-    let file = File::read(bytes, folder).map_err(|error| ReadError::Gltf { file: name.into(), error })?;
+/// [`ReadError::Gltf`] for a malformed file, [`ReadError::Limit`] for one that is too large, [`ReadError::Refused`] for a mesh that
+/// cannot be a cage.
+pub fn read_gltf(bytes: &[u8], name: &str, folder: Option<&Path>, desc: &ReadDesc) -> Result<Cage, ReadError> {
+    let file = File::read(bytes, folder, desc.limits).map_err(|error| match error {
+        GltfError::Limit(error) => ReadError::Limit { file: name.into(), error },
+        error => ReadError::Gltf { file: name.into(), error },
+    })?;
     file.build(desc).map_err(|error| ReadError::Refused { file: name.into(), line: None, error })
 }
 
@@ -64,12 +69,14 @@ struct File {
 }
 
 impl File {
-    fn read(bytes: &[u8], folder: Option<&Path>) -> Result<Self, GltfError> {
+    fn read(bytes: &[u8], folder: Option<&Path>, limits: Limits) -> Result<Self, GltfError> {
+        let mut gauge = Gauge::new(limits, bytes)?;
         let gltf = document::parse(bytes)?;
-        let buffers = Buffers::load(&gltf, folder)?;
+        let buffers = Buffers::load(&gltf, folder, limits)?;
+        gauge.bytes(buffers.size() as u64)?;
         let scene = Scene::new(&gltf)?;
         let motion = Motion::new(&gltf, &scene, &buffers)?;
-        let mut context = Context { scene: &scene, buffers: &buffers, motion, budget: Budget::default() };
+        let mut context = Context { scene: &scene, buffers: &buffers, motion, budget: Budget::default(), gauge };
         let mut soup = Soup::default();
         for placed in &scene.meshes {
             primitive::add_mesh(placed, &mut context, &mut soup)?;
@@ -87,9 +94,9 @@ impl File {
     }
 
     /// Welds across the whole scene if that is a manifold mesh, else node by node: objects that merely touch stay apart. If polygons
-    /// keep the cage from being manifold, triangles are tried.
-    fn build(&self, desc: &GltfDesc) -> Result<Cage, CageError> {
-        let mut recovery = desc.polygons;
+    /// keep the cage from being manifold, triangles are tried. With a repair, the first attempt is repaired.
+    fn build(&self, desc: &ReadDesc) -> Result<Cage, CageError> {
+        let mut recovery = desc.gltf.polygons;
         loop {
             let mut has_polygons = false;
             let mut result = Err(CageError::NoFaces);
@@ -97,18 +104,18 @@ impl File {
                 if weld == Weld::Nodes && self.soup.parts() == 1 {
                     break;
                 }
-                let assembly = Assembly { weld, tolerance: desc.weld_tolerance, recovery };
+                let assembly = Assembly { weld, tolerance: desc.gltf.weld_tolerance, recovery };
                 let mut assembled = self.soup.assemble(assembly);
                 has_polygons |= assembled.has_polygons;
                 let warnings = &mut assembled.desc.warnings;
                 if weld == Weld::Nodes {
                     warnings.push(Warning::WeldedByNode(self.soup.parts()));
                 }
-                if recovery != desc.polygons {
+                if recovery != desc.gltf.polygons {
                     warnings.push(Warning::PolygonsNotUsed);
                 }
-                result = self.finish(assembled);
-                if !matches!(result, Err(CageError::Topology(_))) {
+                result = draft::build(self.finish(assembled), desc);
+                if desc.repair.is_some() || !matches!(result, Err(CageError::Topology(_))) {
                     return result;
                 }
             }
@@ -119,7 +126,8 @@ impl File {
         }
     }
 
-    fn finish(&self, assembled: Assembled) -> Result<Cage, CageError> {
+    /// Adds what belongs to faces and vertices.
+    fn finish(&self, assembled: Assembled) -> CageDesc {
         let Assembled { mut desc, points, materials, more_uv, .. } = assembled;
         let appearance = &self.appearance;
         if !appearance.materials.is_empty() || !more_uv.is_empty() {
@@ -128,7 +136,7 @@ impl File {
             desc.appearance = Some(Appearance { face_materials, more_uv, ..appearance.clone() });
         }
         desc.rig = self.rig.as_ref().map(|rig| self.bind(rig.clone(), &points));
-        Cage::new(desc)
+        desc
     }
 
     /// Gives a rig the vertices that were made from these points.

@@ -12,6 +12,7 @@ use super::motion::{Budget, Influences, Morphs, Motion, has_triangles};
 use super::scene::{PlacedMesh, Scene};
 use super::soup::{MAX_UV_SETS, Point, Run, Soup};
 use super::{AccessorError, GltfError, GltfPlace};
+use crate::limits::Gauge;
 use crate::rig::blend;
 
 /// What all primitives of a file share.
@@ -20,6 +21,7 @@ pub(super) struct Context<'a> {
     pub(super) buffers: &'a Buffers,
     pub(super) motion: Option<Motion>,
     pub(super) budget: Budget,
+    pub(super) gauge: Gauge,
 }
 
 /// Adds the triangles of a mesh to the soup.
@@ -91,12 +93,14 @@ impl<'a> Reader<'a> {
                     Some(&known) => known,
                     None => {
                         context.budget.take(attributes.numbers())?;
+                        context.gauge.vertex()?;
                         let new = self.point(&attributes, vertex, joint, context, morphs.as_deref_mut())?;
                         soup.push_point(&new)
                     }
                 };
                 points.insert(vertex, *point);
             }
+            context.gauge.face(3)?;
             soup.push_triangle(triangle);
         }
         Ok(())

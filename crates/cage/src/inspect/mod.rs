@@ -12,7 +12,7 @@ use serde::Serialize;
 pub use advice::{Advice, Elements};
 pub use problems::Problem;
 
-use crate::{Cage, NONE, Topology};
+use crate::{Cage, NONE, PolygonReport, Topology};
 
 /// Counts and problems of a cage; serializes with the field names as keys.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -45,6 +45,9 @@ pub struct Inspection {
     pub corners: usize,
     /// Number of hole tags.
     pub holes: usize,
+    /// What became of the triangles of a file that has nothing else, where polygons were looked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub polygons: Option<PolygonReport>,
     /// What may surprise; empty for a healthy cage.
     pub problems: Vec<Problem>,
     /// For each problem that modelling can solve: where it is and what to do.
@@ -77,6 +80,7 @@ pub fn inspect(cage: &Cage) -> Inspection {
         creases: cage.tags().creases.len(),
         corners: cage.tags().corners.len(),
         holes: cage.tags().holes.len(),
+        polygons: cage.polygon_report().cloned(),
         problems,
         advice,
     }

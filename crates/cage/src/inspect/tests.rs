@@ -55,6 +55,7 @@ fn cube() {
         creases: 0,
         corners: 0,
         holes: 0,
+        polygons: None,
         problems: vec![],
         advice: vec![],
     };

@@ -19,6 +19,9 @@ pub(super) fn report(desc: &CageDesc, loops: &Loops, fans: &Fans, turned: &[bool
 pub(super) fn carry(desc: CageDesc, tags: Tags, loops: &Loops, fans: &Fans, turned: &[bool]) -> CageDesc {
     let order = corner_order(loops, turned);
     let place_of_vertex = places_of_vertices(loops, fans);
+    let corners: Vec<u32> = order.iter().map(|&c| loops.corners[c as usize]).collect();
+    let mut rig = desc.rig.clone();
+    rig.iter_mut().for_each(|rig| rig.gather_vertices(&fans.sources));
     CageDesc {
         // Of vertices at one place, all are at the first: what lies near another vertex now lies there.
         positions: place_of_vertex.iter().map(|&place| desc.positions[place as usize]).collect(),
@@ -26,8 +29,10 @@ pub(super) fn carry(desc: CageDesc, tags: Tags, loops: &Loops, fans: &Fans, turn
         face_vertices: order.iter().map(|&c| fans.vertices[c as usize]).collect(),
         uv: desc.uv.as_ref().map(|uv| FaceVarying {
             values: uv.values.clone(),
-            indices: order.iter().map(|&c| uv.indices[loops.corners[c as usize] as usize]).collect(),
+            indices: corners.iter().map(|&c| uv.indices[c as usize]).collect(),
         }),
+        appearance: desc.appearance.as_ref().map(|appearance| appearance.gather(&loops.sources, &corners)),
+        rig,
         tags,
         face_sets: carry_sets(&desc.face_sets, &loops.sources),
         source_vertices: fans.sources.iter().map(|&v| desc.source_vertex(v)).collect(),

@@ -57,6 +57,12 @@ pub fn repair(desc: CageDesc, options: &RepairDesc) -> Result<CageDesc, CageErro
     if let Some(uv) = &desc.uv {
         crate::cage::check_uv(uv, desc.face_vertices.len())?;
     }
+    if let Some(appearance) = &desc.appearance {
+        appearance.check(desc.face_offsets.len() - 1, desc.face_vertices.len()).map_err(CageError::Appearance)?;
+    }
+    if let Some(rig) = &desc.rig {
+        rig.check(desc.positions.len()).map_err(CageError::Rig)?;
+    }
     let mut done = RepairReport::default();
     for _ in 0..PASSES {
         let (repaired, report) = pass(desc, options);

@@ -156,13 +156,13 @@ impl Rig {
         Ok(())
     }
 
-    /// Renumbers vertices after some were dropped: `kept[new]` is the old index, in rising order.
-    pub(crate) fn renumber_vertices(&mut self, kept: &[u32]) {
+    /// The rig of other vertices: the new vertex `v` moves as the old vertex `sources[v]`.
+    pub(crate) fn gather_vertices(&mut self, sources: &[u32]) {
         let rows = |v: &u32| *v as usize * self.influences..(*v as usize + 1) * self.influences;
-        self.joint_indices = kept.iter().flat_map(|v| self.joint_indices[rows(v)].iter().copied()).collect();
-        self.joint_weights = kept.iter().flat_map(|v| self.joint_weights[rows(v)].iter().copied()).collect();
-        self.bind_positions = kept.iter().map(|&v| self.bind_positions[v as usize]).collect();
-        self.morph_sets.iter_mut().flat_map(|set| &mut set.targets).for_each(|target| target.renumber(kept));
+        self.joint_indices = sources.iter().flat_map(|v| self.joint_indices[rows(v)].iter().copied()).collect();
+        self.joint_weights = sources.iter().flat_map(|v| self.joint_weights[rows(v)].iter().copied()).collect();
+        self.bind_positions = sources.iter().map(|&v| self.bind_positions[v as usize]).collect();
+        self.morph_sets.iter_mut().flat_map(|set| &mut set.targets).for_each(|target| target.gather(sources));
     }
 }
 
@@ -174,9 +174,9 @@ impl MorphTarget {
             && self.offsets.iter().all(|offset| offset.is_finite())
     }
 
-    fn renumber(&mut self, kept: &[u32]) {
-        let pairs = self.vertices.iter().zip(&self.offsets);
-        let moved = pairs.filter_map(|(v, &offset)| Some((kept.binary_search(v).ok()? as u32, offset)));
+    fn gather(&mut self, sources: &[u32]) {
+        let offset = |v: &u32| Some(self.offsets[self.vertices.binary_search(v).ok()?]);
+        let moved = (0..).zip(sources).filter_map(|(new, old)| Some((new, offset(old)?)));
         (self.vertices, self.offsets) = moved.unzip();
     }
 }

@@ -118,6 +118,9 @@ impl Findings {
         row("genus", &cage.genus);
         row("euler", &cage.euler);
         row("tags", &tags.join(", "));
+        if let Some(polygons) = &cage.polygons {
+            row("polygons", polygons);
+        }
         for (name, plan) in &self.schemes {
             row(name, plan);
         }

@@ -1,8 +1,8 @@
 //! How files become cages.
 
 use crate::failure::Failure;
-use clap::Args;
-use osculate_cage::{CreaseDesc, Limits, ReadDesc, RepairDesc};
+use clap::{Args, ValueEnum};
+use osculate_cage::{CreaseDesc, GltfDesc, Limits, PolygonRecovery, ReadDesc, RepairDesc};
 use std::str::FromStr;
 
 /// Options of all commands that read a cage.
@@ -26,6 +26,15 @@ pub(crate) struct ReadArgs {
     /// Sharpness of the creases that --crease-from makes; from 10 on they are infinitely sharp.
     #[arg(long, value_name = "S", default_value_t = 10.0, hide_default_value = true)]
     crease_sharpness: f32,
+
+    /// glTF: which signs of polygons among triangles to believe: the mark FB_ngon_encoding (marked), halves of quads in a row
+    /// (order), neighbours that make good quads (shape); none keeps all triangles. Default: marked,order,shape.
+    #[arg(long, value_name = "SIGN,..", value_delimiter = ',')]
+    gltf_polygons: Vec<PolygonSign>,
+
+    /// glTF: weld vertices at most this far apart, in units of the scene. Default: 0, only those at one place.
+    #[arg(long, value_name = "DISTANCE", default_value_t = 0.0, hide_default_value = true)]
+    gltf_weld: f64,
 
     /// Refuse files that are larger; with k, M or G at the end for powers of 1024 bytes. Default: 4G.
     #[arg(long, value_name = "BYTES")]
@@ -67,6 +76,19 @@ impl FromStr for CreaseSource {
     }
 }
 
+/// What tells which triangles of a glTF file were one polygon.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PolygonSign {
+    /// The extension FB_ngon_encoding.
+    Marked,
+    /// The halves of a quad stand one after the other.
+    Order,
+    /// Two neighbours make a good quad.
+    Shape,
+    /// Nothing does.
+    None,
+}
+
 /// A number of bytes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Bytes(u64);
@@ -88,9 +110,11 @@ impl ReadArgs {
     /// What the library is told.
     pub(crate) fn desc(&self) -> Result<ReadDesc, Failure> {
         let repair = self.repair.then_some(RepairDesc { weld_tolerance: self.weld });
-        if !(self.weld >= 0.0 && self.weld.is_finite()) {
-            return Err(Failure::usage(format_args!("--weld {} is no distance", self.weld))
-                .with_hint("distances are at least 0"));
+        for (option, distance) in [("--weld", self.weld), ("--gltf-weld", self.gltf_weld)] {
+            if !(distance >= 0.0 && distance.is_finite()) {
+                return Err(Failure::usage(format_args!("{option} {distance} is no distance"))
+                    .with_hint("distances are at least 0"));
+            }
         }
         if self.weld > 0.0 && !self.repair {
             return Err(Failure::usage("--weld is part of the repair").with_hint("add --repair"));
@@ -105,7 +129,21 @@ impl ReadArgs {
             faces: self.max_faces.unwrap_or(default.faces),
             memory_bytes: self.max_memory.map_or(default.memory_bytes, |bytes| bytes.0),
         };
-        Ok(ReadDesc { repair, creases: self.creases(), limits, ..ReadDesc::default() })
+        let gltf = GltfDesc { polygons: self.polygons()?, weld_tolerance: self.gltf_weld };
+        Ok(ReadDesc { gltf, repair, creases: self.creases(), limits })
+    }
+
+    fn polygons(&self) -> Result<PolygonRecovery, Failure> {
+        let signs = &self.gltf_polygons;
+        if signs.is_empty() {
+            return Ok(PolygonRecovery::default());
+        }
+        if signs.contains(&PolygonSign::None) && signs.len() > 1 {
+            return Err(Failure::usage("--gltf-polygons none goes with no other sign").with_hint("leave out none"));
+        }
+        let has = |sign| signs.contains(&sign);
+        let [marked, order, shape] = [PolygonSign::Marked, PolygonSign::Order, PolygonSign::Shape].map(has);
+        Ok(PolygonRecovery { marked, order, shape })
     }
 
     fn creases(&self) -> Option<CreaseDesc> {

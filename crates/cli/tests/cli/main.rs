@@ -5,6 +5,7 @@ mod command_line;
 mod compare;
 mod device;
 mod export;
+mod gltf;
 mod inspect;
 mod render;
 mod repair;

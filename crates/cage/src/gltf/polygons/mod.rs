@@ -8,9 +8,12 @@ mod marked;
 mod order;
 mod shape;
 
+use std::fmt;
+
 use glam::{DVec2, DVec3};
 
 use crate::Listed;
+use crate::listed::plural;
 
 /// Which signs of polygons are believed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -71,6 +74,28 @@ impl PolygonReport {
                 self.left += 1;
                 self.left_faces.push(face);
             }
+        }
+    }
+}
+
+impl fmt::Display for PolygonReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let sources: Vec<String> = [(self.marked, "marked"), (self.by_order, "by order"), (self.by_shape, "by shape")]
+            .into_iter()
+            .filter(|(n, _)| *n > 0)
+            .map(|(n, how)| format!("{n} {how}"))
+            .collect();
+        write!(f, "{} give ", plural(self.triangles, "triangle"))?;
+        match &sources[..] {
+            [] => f.write_str("no larger polygons")?,
+            sources => {
+                let found = self.marked + self.by_order + self.by_shape;
+                write!(f, "{} ({})", plural(found, "larger polygon"), sources.join(", "))?;
+            }
+        }
+        match self.left {
+            0 => Ok(()),
+            left => write!(f, "; {left} stay as they are: {}", self.left_faces),
         }
     }
 }

@@ -15,14 +15,19 @@ const GOOD: f64 = 0.6;
 
 /// The pairs of an exporter's order, if there is one.
 pub(super) fn pairs(triangles: &[[u32; 3]], points: &Points) -> Option<Vec<Pair>> {
-    let mut links: Vec<Option<Pair>> =
-        (1..triangles.len() as u32).map(|t| points.pair(triangles, [t - 1, t]).filter(|p| p.quality > 0.0)).collect();
+    let all: Vec<Option<Pair>> = (1..triangles.len() as u32).map(|t| points.pair(triangles, [t - 1, t])).collect();
+    let mut links: Vec<Option<Pair>> = all.iter().map(|link| link.filter(|pair| pair.quality > 0.0)).collect();
     drop_fans(&mut links, triangles, points);
     let patterns = two_most_frequent(&best(&links));
-    links.iter_mut().for_each(|link| *link = link.filter(|pair| patterns.contains(&pair.pattern)));
-    let chosen = best(&links);
+    let fits = |link: &Option<Pair>| link.filter(|pair| patterns.contains(&pair.pattern));
+    let chosen = best(&links.iter().map(fits).collect::<Vec<_>>());
     let covered = 2.0 * chosen.len() as f64 / triangles.len() as f64;
-    (!chosen.is_empty() && covered >= ENOUGH).then_some(chosen)
+    if chosen.is_empty() || covered < ENOUGH {
+        return None;
+    }
+    // A mesh of nothing but quads may have concave ones and folded ones.
+    let halves: Option<Vec<Pair>> = all.iter().step_by(2).map(fits).collect();
+    Some(halves.filter(|_| triangles.len().is_multiple_of(2)).unwrap_or(chosen))
 }
 
 /// Drops poor pairs from rows of four and more triangles around one vertex.

@@ -5,7 +5,7 @@ use serde_json::json;
 use super::{File, bytes, read_gltf, square};
 use crate::gltf;
 use crate::random::Random;
-use crate::{GltfDesc, ReadError};
+use crate::{ReadDesc, ReadError};
 
 #[test]
 fn damaged_files_never_panic() {
@@ -68,7 +68,7 @@ fn everything() -> File {
 }
 
 fn read(bytes: &[u8]) -> Result<crate::Cage, ReadError> {
-    gltf::read_gltf(bytes, "damaged.glb", None, &GltfDesc::default())
+    gltf::read_gltf(bytes, "damaged.glb", None, &ReadDesc::default())
 }
 
 #[test]

@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3, Vec4};
 use serde_json::{Value, json};
 
 use super::{File, SQUARE, square, triangles, warnings};
-use crate::{GltfDesc, ImageSource, NONE, Wrap};
+use crate::{CreaseDesc, GltfDesc, ImageSource, Limits, NONE, ReadDesc, RepairDesc, Wrap};
 
 fn shorts(numbers: &[i16]) -> Vec<u8> {
     numbers.iter().flat_map(|x| x.to_le_bytes()).collect()
@@ -165,4 +165,64 @@ fn faces_without_a_material_have_none() {
     let cage = file.read();
     assert_eq!(cage.appearance().expect("materials").face_materials, [NONE, NONE, 0]);
     assert_eq!(cage.appearance().expect("materials").material(0), None);
+}
+
+#[test]
+fn repairs_and_creases_keep_what_belongs_to_faces_and_vertices() {
+    let mut file = File::new();
+    let [a, b, c, d] = SQUARE;
+    let positions = file.positions(&[a, b, c, d, [0.0, 0.0, 1.0]]);
+    let lift = file.positions(&[[0.0; 3], [0.0; 3], [0.0; 3], [0.0, 0.0, 2.0], [0.0; 3]]);
+    let uv = file.uv(&[[0.5, 0.5]; 5]);
+    let second = file.uv(&[[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0], [0.0, 0.0]]);
+    // The second triangle is there twice.
+    let indices = file.indices(&[0, 1, 2, 2, 3, 0, 2, 3, 0, 1, 0, 4]);
+    file.primitive(json!({
+        "attributes": {"POSITION": positions, "TEXCOORD_0": uv, "TEXCOORD_1": second},
+        "indices": indices, "targets": [{"POSITION": lift}], "material": 0
+    }));
+    assert!(file.refused().contains("with more than two faces"), "{}", file.refused());
+    let desc = ReadDesc {
+        gltf: triangles(),
+        repair: Some(RepairDesc::default()),
+        creases: Some(CreaseDesc { angle: Some(60.0), ..CreaseDesc::default() }),
+        ..ReadDesc::default()
+    };
+    let cage = file.read_as(&desc).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!((cage.face_count(), cage.vertex_count(), cage.tags().creases.len()), (3, 5, 1));
+    let look = cage.appearance().expect("materials");
+    assert_eq!(look.face_materials, [0; 3]);
+    assert_eq!(look.more_uv[0].uv.indices.len(), 9);
+    let target = &cage.rig().expect("a rig").morph_sets[0].targets[0];
+    let raised: Vec<DVec3> = target.vertices.iter().map(|&v| cage.positions()[v as usize]).collect();
+    assert_eq!(raised, [DVec3::Y]);
+}
+
+#[test]
+fn limits_are_kept() {
+    let with = |limits: Limits| {
+        let desc = ReadDesc { limits, ..ReadDesc::default() };
+        square().read_as(&desc).map(|cage| cage.face_count()).map_err(|error| error.to_string())
+    };
+    let message = |text: &str| Err(format!("test.glb: {text}"));
+    assert_eq!(with(Limits::default()), Ok(1));
+    assert_eq!(
+        with(Limits { faces: 1, ..Limits::default() }),
+        message("more faces than the limit of 1; raise the limit or split the model")
+    );
+    let memory_bytes = square().glb().len() as u64 + 200;
+    assert_eq!(
+        with(Limits { memory_bytes, ..Limits::default() }),
+        message(&format!(
+            "the cage would take more memory than the limit of {memory_bytes} bytes; raise the limit or split the model"
+        ))
+    );
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("large.bin"), [0; 5000]).expect("written");
+    let desc = ReadDesc { limits: Limits { file_bytes: 4000, ..Limits::default() }, ..ReadDesc::default() };
+    let error = crate::read_gltf(&square().with_uri("large.bin"), "test.gltf", Some(folder.path()), &desc);
+    assert_eq!(
+        error.expect_err("too large").to_string(),
+        "test.gltf: the file is larger than the limit of 4000 bytes; raise the limit if it is to be trusted"
+    );
 }

@@ -19,7 +19,7 @@ fn triangles() -> GltfDesc {
 }
 
 fn read_gltf(bytes: &[u8], name: &str, folder: Option<&Path>) -> Result<Cage, ReadError> {
-    gltf::read_gltf(bytes, name, folder, &triangles())
+    gltf::read_gltf(bytes, name, folder, &ReadDesc { gltf: triangles(), ..ReadDesc::default() })
 }
 
 /// A glTF file in the making.
@@ -92,7 +92,11 @@ impl File {
     }
 
     fn read_with(&self, desc: &GltfDesc) -> Cage {
-        gltf::read_gltf(&self.glb(), "test.glb", None, desc).unwrap_or_else(|error| panic!("{error}"))
+        self.read_as(&ReadDesc { gltf: desc.clone(), ..ReadDesc::default() }).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    fn read_as(&self, desc: &ReadDesc) -> Result<Cage, ReadError> {
+        gltf::read_gltf(&self.glb(), "test.glb", None, desc)
     }
 
     fn refused(&self) -> String {

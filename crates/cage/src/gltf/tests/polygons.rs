@@ -293,11 +293,13 @@ fn polygons_keep_materials_and_uv() {
 fn quads_of_the_reference_models_come_back() {
     let root = std::env::var_os("OSCULATE_REFERENCE").expect("OSCULATE_REFERENCE names the folder of reference data");
     let mut random = Random::new(11);
+    let mut short = Vec::new();
     for (model, least) in [
         ("paper/bigguy.obj", [1.0, 0.9]),
         ("paper/monsterfrog.obj", [1.0, 0.9]),
-        ("public-domain/spot_control_mesh.obj", [0.9, 0.5]),
-        ("public-domain/blub_control_mesh.obj", [0.9, 0.5]),
+        // These have triangles and polygons of five and more corners, too.
+        ("public-domain/spot_control_mesh.obj", [0.8, 0.7]),
+        ("public-domain/blub_control_mesh.obj", [0.9, 0.7]),
         ("own/torus.obj", [1.0, 1.0]),
         ("own/twohole.obj", [1.0, 0.9]),
     ] {
@@ -312,10 +314,11 @@ fn quads_of_the_reference_models_come_back() {
         for (triangles, least) in [ordered, mixed].into_iter().zip(least) {
             let found = mesh.file(&triangles).read_with(&GltfDesc::default());
             let right = face_sets(&found).intersection(&expected).count();
-            println!("{model}: {right} of {} faces; {:?}", expected.len(), report(&found));
-            assert!(right as f64 >= least * expected.len() as f64, "{model}");
+            println!("{model}: {right} of {} faces, {} found", expected.len(), found.face_count());
+            short.extend(((right as f64) < least * expected.len() as f64).then_some((model, right)));
         }
     }
+    assert_eq!(short, []);
 }
 
 /// A mesh that never had quads stays as it is.
@@ -329,6 +332,5 @@ fn the_triangles_of_the_reference_models_stay() {
         faces: (0..cage.face_count()).map(|f| cage.face(f).to_vec()).collect(),
     };
     let found = mesh.file(&mesh.cut(|_| 0)).read_with(&GltfDesc::default());
-    println!("{:?}", report(&found));
     assert_eq!(report(&found).left, cage.face_count());
 }
