@@ -87,14 +87,20 @@ pub fn requests(patches: &[u32], parameters: &[f32]) -> Vec<SampleRequest> {
     patches.iter().flat_map(|&patch_id| grid().map(move |(u, v)| SampleRequest { patch_id, u, v })).collect()
 }
 
-/// All vertices of a surface's triangles as they are drawn.
+/// The vertices of a surface's triangles, one at each place of each patch. That those at one place have equal bits is for [`osculate::check`] to say.
 ///
 /// # Panics
 /// If the device fails.
 pub fn captured(surface: &Surface, tessellation: &Tessellation) -> Vec<CapturedVertex> {
+    let place = |vertex: &CapturedVertex| vertex.uv.map(f32::to_bits);
     let mut all = Vec::new();
     let keep = |vertices: &[CapturedVertex]| {
-        all.extend_from_slice(vertices);
+        for patch in vertices.chunk_by(|a, b| a.patch == b.patch) {
+            let mut patch = patch.to_vec();
+            patch.sort_unstable_by_key(place);
+            patch.dedup_by_key(|vertex| place(vertex));
+            all.extend(patch);
+        }
         Ok::<(), EngineError>(())
     };
     surface.capture(tessellation, keep).unwrap_or_else(|error| panic!("{error}"));

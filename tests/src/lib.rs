@@ -16,8 +16,8 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 
 use osculate::{
-    BoundaryRule, Cage, Device, DeviceDesc, Engine, EngineDesc, EngineError, PlanError, Scheme, ShaderSet, Surface,
-    SurfaceDesc,
+    BoundaryRule, Cage, Device, DeviceDesc, Engine, EngineDesc, EngineError, PlanError, Scheme, ShaderSet, Spacing,
+    Surface, SurfaceDesc,
 };
 use osculate_cage::NONE;
 
@@ -73,6 +73,19 @@ pub fn rules_of(cage: &Cage) -> &'static [BoundaryRule] {
     let topology = cage.topology();
     let is_open = topology.edge_half_edges().iter().any(|&h| topology.twin(h) == NONE);
     if is_open { &RULES } else { &RULES[..1] }
+}
+
+/// Whether a surface has so many patches that tests with every scheme are better off with lower levels: its patches are of the same kinds as those of smaller ones.
+pub fn is_large(surface: &Surface) -> bool {
+    surface.plan().patches.len() > 3_000
+}
+
+/// Levels that exercise every spacing; fewer and lower ones for large surfaces.
+pub fn levels_of(surface: &Surface) -> &'static [(f32, Spacing)] {
+    match is_large(surface) {
+        false => &[(1.0, Spacing::Equal), (5.0, Spacing::Equal), (3.3, Spacing::Odd), (4.7, Spacing::Even)],
+        true => &[(2.0, Spacing::Equal), (2.6, Spacing::Odd)],
+    }
 }
 
 fn device() -> Device {

@@ -4,14 +4,15 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use osculate::{
-    Cage, Camera, CapturedVertex, CheckReport, EngineDesc, EngineError, Evaluator, Factors, RenderDesc, Scheme, Shade,
-    Spacing, Surface, Tessellation, check,
+    Cage, Camera, CapturedVertex, CheckReport, EngineDesc, Evaluator, Factors, RenderDesc, Scheme, Shade, Spacing,
+    Surface, Tessellation, check,
 };
 use osculate_compare::Picture;
 use osculate_shaders::layout::SampleRequest;
+use osculate_tests::exact::captured;
 use osculate_tests::mutation::{Mutation, mutated};
 use osculate_tests::picture::{Gallery, camera, draw, draw_surfaces};
-use osculate_tests::{RULES, gpu, gpu_with, gpu_with_shaders, reference_folder, surface, surface_of, zoo};
+use osculate_tests::{gpu, gpu_with, gpu_with_shaders, is_large, reference_folder, rules_of, surface, surface_of, zoo};
 
 fn in_compute(level: f32, spacing: Spacing) -> Tessellation {
     Tessellation { factors: Factors::Uniform(level), spacing, evaluator: Evaluator::Compute }
@@ -24,17 +25,6 @@ fn adaptive(cage: &Cage, spacing: Spacing) -> Tessellation {
     let camera = Camera::look_at(eye, bounds.center(), DVec3::Y, 0.8, bounds).unwrap();
     let factors = Factors::Adaptive { pixels: 8.0, camera, height: 256 };
     Tessellation { factors, spacing, evaluator: Evaluator::Compute }
-}
-
-fn captured(surface: &Surface, tessellation: &Tessellation) -> Vec<CapturedVertex> {
-    let mut all = Vec::new();
-    surface
-        .capture(tessellation, |vertices| {
-            all.extend_from_slice(vertices);
-            Ok::<(), EngineError>(())
-        })
-        .unwrap();
-    all
 }
 
 /// Position and normal.
@@ -58,7 +48,8 @@ fn both_evaluators_give_the_same_bits() {
     let exact = gpu.device().info().is_llvmpipe;
     for (specimen, &scheme) in zoo::all().iter().flat_map(|specimen| Scheme::ALL.iter().map(move |s| (specimen, s))) {
         let surface = surface_of(&gpu, &specimen.cage, scheme, None).unwrap();
-        for level in [1.0, 4.0] {
+        let finest = if is_large(&surface) { 2.0 } else { 4.0 };
+        for level in [1.0, finest] {
             let place = |vertex: &CapturedVertex| (vertex.patch, vertex.uv.map(f32::to_bits));
             let by_tessellator = Tessellation { evaluator: Evaluator::Tessellator, ..Tessellation::uniform(level) };
             let tessellated: HashMap<_, _> =
@@ -94,7 +85,8 @@ fn the_compute_evaluator_gives_the_bits_of_the_sampling_kernels() {
     let exact = gpu.device().info().is_llvmpipe;
     for (specimen, &scheme) in zoo::all().iter().flat_map(|specimen| Scheme::ALL.iter().map(move |s| (specimen, s))) {
         let surface = surface_of(&gpu, &specimen.cage, scheme, None).unwrap();
-        let vertices = captured(&surface, &in_compute(3.4, Spacing::Odd));
+        let level = if is_large(&surface) { 1.4 } else { 3.4 };
+        let vertices = captured(&surface, &in_compute(level, Spacing::Odd));
         let request = |v: &CapturedVertex| SampleRequest { patch_id: v.patch, u: v.uv[0], v: v.uv[1] };
         let samples = surface.evaluate(&vertices.iter().map(request).collect::<Vec<_>>()).unwrap();
         for (vertex, sample) in vertices.iter().zip(samples.chunks_exact(12)) {
@@ -149,7 +141,9 @@ fn grids_are_watertight_at_any_level_and_spacing() {
 #[test]
 fn grids_are_watertight_under_every_boundary_rule() {
     let gpu = gpu();
-    for (specimen, rule) in zoo::all().iter().flat_map(|specimen| RULES.map(|rule| (specimen, rule))) {
+    for (specimen, &rule) in
+        zoo::all().iter().flat_map(|specimen| rules_of(&specimen.cage).iter().map(move |rule| (specimen, rule)))
+    {
         let Some(surface) = surface(&gpu, &specimen.cage, Some(rule)) else { continue };
         assert_watertight(&format!("{}, {rule:?}", specimen.name), &surface, &in_compute(3.0, Spacing::Equal));
     }

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use osculate::{BoundaryRule, Scheme, Surface};
 use osculate_subdiv::twin;
-use osculate_tests::{RULES, gpu, surface, surface_of, zoo};
+use osculate_tests::{gpu, rules_of, surface, surface_of, zoo};
 
 fn cage_points(surface: &Surface, points: &[DVec3]) -> Vec<Vec3> {
     points.iter().map(|&p| surface.space().enter(p)).collect()
@@ -28,7 +28,7 @@ fn points_and_records_are_those_of_the_twins() {
     let exact = gpu.device().info().is_llvmpipe;
     let mut compared = 0;
     for (specimen, scheme) in zoo::all().iter().flat_map(|specimen| Scheme::ALL.iter().map(move |&s| (specimen, s))) {
-        for rule in RULES {
+        for &rule in rules_of(&specimen.cage) {
             let Some(surface) = surface_of(&gpu, &specimen.cage, scheme, Some(rule)) else { continue };
             let name = format!("{}, {scheme}, {rule:?}", specimen.name);
             let points = twin::points(surface.plan(), &cage_points(&surface, specimen.cage.positions()));

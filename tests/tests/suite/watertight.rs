@@ -3,7 +3,9 @@
 use glam::DVec3;
 use osculate::{Cage, Camera, CheckReport, EngineDesc, Factors, Scheme, Spacing, Surface, Tessellation, check};
 use osculate_tests::mutation::{Mutation, mutated};
-use osculate_tests::{RULES, gpu, gpu_with, gpu_with_shaders, reference_folder, surface, surface_of, zoo};
+use osculate_tests::{
+    gpu, gpu_with, gpu_with_shaders, levels_of, reference_folder, rules_of, surface, surface_of, zoo,
+};
 
 fn assert_watertight(name: &str, surface: &Surface, tessellation: &Tessellation) -> CheckReport {
     let report = check(surface, tessellation).unwrap();
@@ -35,14 +37,12 @@ fn adaptive(cage: &Cage, pixels: f32) -> Vec<Tessellation> {
 #[test]
 fn the_zoo_is_watertight_at_integer_and_fractional_levels() {
     let gpu = gpu();
-    let levels =
-        [level(1.0, Spacing::Equal), level(5.0, Spacing::Equal), level(3.3, Spacing::Odd), level(4.7, Spacing::Even)];
     for (specimen, scheme) in zoo::all().iter().flat_map(|specimen| Scheme::ALL.iter().map(move |&s| (specimen, s))) {
-        for rule in RULES {
+        for &rule in rules_of(&specimen.cage) {
             let Some(surface) = surface_of(&gpu, &specimen.cage, scheme, Some(rule)) else { continue };
             let name = format!("{}, {scheme}, {rule:?}", specimen.name);
-            for tessellation in &levels {
-                let report = assert_watertight(&name, &surface, tessellation);
+            for &(height, spacing) in levels_of(&surface) {
+                let report = assert_watertight(&name, &surface, &level(height, spacing));
                 assert_eq!(report.weld.open, 0, "{name}: {report:?}");
             }
         }
