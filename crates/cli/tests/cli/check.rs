@@ -31,7 +31,18 @@ fn a_line_per_scheme_and_level() {
 fn both_evaluators_are_proven() {
     let folder = folder();
     let lines = |evaluator| {
-        let arguments = ["check", "cage.obj", "--levels", "1,3.5", "--spacing", "even", "--evaluator", evaluator];
+        let arguments = [
+            "check",
+            "cage.obj",
+            "--schemes",
+            "gregory2",
+            "--levels",
+            "1,3.5",
+            "--spacing",
+            "even",
+            "--evaluator",
+            evaluator,
+        ];
         osculate(folder.path(), &arguments).exits(0).stdout
     };
     let (tessellator, compute) = (lines("tessellator"), lines("compute"));

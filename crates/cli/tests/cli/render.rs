@@ -123,7 +123,7 @@ fn what_cannot_be_drawn_exits_before_or_after_reading() {
     run(&["-o", "-"]).fails(2, "cannot write to stdout");
     run(&["-o", "out.png", "--camera", "1,2,3:1,2,3:0,1,0:45"]).fails(2, "two different points");
     run(&["-o", "out.png", "--camera", "1,2,3:0,0,0:0,1,0:45", "--fit"]).fails(2, "--fit");
-    run(&["-o", "out.png", "--scheme", "table"]).fails(2, "it has gregory2");
+    run(&["-o", "out.png", "--scheme", "table"]).fails(2, "it has gregory1");
     run(&["-o", "out.png", "--boundary", "none"]).fails(3, "cage.obj: no face is left");
     assert!(!folder.path().join("out.png").exists());
 }
