@@ -65,10 +65,9 @@ impl Reader<'_> {
         let target = &self.rig.nodes[node as usize];
         let width = match property {
             NodeProperty::MorphWeights => {
-                let mut sets = self.rig.morph_sets.iter().filter(|set| set.node == node);
                 // Weights of a mesh without targets, or of none at all, move nothing.
-                let Some(set) = sets.next() else { return Ok(()) };
-                set.targets.len()
+                let Some(set) = self.rig.morph_set_of(node) else { return Ok(()) };
+                self.rig.morph_sets[set].targets.len()
             }
             _ if matches!(target.transform, NodeTransform::Matrix(_)) => {
                 return Err(fault(format!(

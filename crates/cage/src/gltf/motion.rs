@@ -45,8 +45,8 @@ pub(super) struct Motion {
     skins: HashMap<usize, (u32, u32)>,
     /// The joint of each node that carries a mesh without a skin.
     nodes: HashMap<u32, u32>,
-    /// Nodes that animations move, by their index in the scene.
-    animated: HashSet<u32>,
+    /// For each node of the scene where all its movement comes from: itself or its nearest ancestor that is animated.
+    movers: Vec<Option<u32>>,
 }
 
 impl Motion {
@@ -61,7 +61,8 @@ impl Motion {
             return Ok(None);
         }
         let (joints, at_rest) = (Vec::new(), Vec::new());
-        let mut motion = Self { joints, at_rest, skins: HashMap::new(), nodes: HashMap::new(), animated };
+        let movers = movers(scene, &animated);
+        let mut motion = Self { joints, at_rest, skins: HashMap::new(), nodes: HashMap::new(), movers };
         for placed in &scene.meshes {
             match placed.node.skin() {
                 Some(skin) if !motion.skins.contains_key(&skin.index()) => motion.add_skin(&skin, scene, buffers)?,
@@ -126,15 +127,20 @@ impl Motion {
         }
     }
 
-    /// The node that all movement of a node without a skin comes from: itself or its nearest ancestor that is animated.
-    pub(super) fn mover(&self, mut node: u32, scene: &Scene) -> Option<u32> {
-        loop {
-            if self.animated.contains(&node) {
-                return Some(node);
-            }
-            node = scene.nodes[node as usize].parent?;
-        }
+    /// The node that all movement of a mesh without a skin comes from.
+    pub(super) fn mover(&self, placed: &PlacedMesh) -> Option<u32> {
+        self.movers[placed.at as usize]
     }
+}
+
+fn movers(scene: &Scene, animated: &HashSet<u32>) -> Vec<Option<u32>> {
+    let mut movers: Vec<Option<u32>> = Vec::with_capacity(scene.nodes.len());
+    for (at, node) in (0..).zip(&scene.nodes) {
+        let inherited = || movers[node.parent? as usize];
+        let mover = if animated.contains(&at) { Some(at) } else { inherited() };
+        movers.push(mover);
+    }
+    movers
 }
 
 /// A matrix by columns without its last row, which is 0, 0, 0, 1.
@@ -158,7 +164,7 @@ pub(super) struct Morphs {
 
 impl Morphs {
     /// The morph targets of a mesh, still without points; none if it has no targets.
-    pub(super) fn new(placed: &PlacedMesh, first_point: u32) -> Result<Option<Self>, GltfError> {
+    pub(super) fn new(placed: &PlacedMesh, first_point: u32, budget: &mut Budget) -> Result<Option<Self>, GltfError> {
         let PlacedMesh { node, mesh, at } = placed;
         let counts = mesh.primitives().filter(|p| has_triangles(p)).map(|p| (p.index(), p.morph_targets().len()));
         let due = counts.clone().next().map_or(0, |(_, due)| due);
@@ -169,6 +175,8 @@ impl Morphs {
             return Ok(None);
         }
         let names = target_names(mesh.extras().as_deref());
+        // Each place of the mesh has its names and weights.
+        budget.take(names.iter().map(|name| name.len() / 4).sum::<usize>() + 8 * due)?;
         let name = |target: usize| names.get(target).cloned().unwrap_or_else(|| format!("target {target}"));
         let mut weights = node.weights().or_else(|| mesh.weights()).unwrap_or_default().to_vec();
         weights.iter_mut().filter(|w| !w.is_finite()).for_each(|w| *w = 0.0);

@@ -15,6 +15,11 @@ use super::{AccessorError, GltfError, GltfPlace};
 use crate::limits::Gauge;
 use crate::rig::blend;
 
+/// What a primitive costs beside its vertices, in numbers.
+const COST: usize = 64;
+/// Names are kept for each primitive, so long ones are cut to that many characters.
+const LONGEST_NAME: usize = 250;
+
 /// What all primitives of a file share.
 pub(super) struct Context<'a> {
     pub(super) scene: &'a Scene<'a>,
@@ -26,13 +31,18 @@ pub(super) struct Context<'a> {
 
 /// Adds the triangles of a mesh to the soup.
 pub(super) fn add_mesh(placed: &PlacedMesh, context: &mut Context, soup: &mut Soup) -> Result<(), GltfError> {
-    let mover = context.motion.as_ref().and_then(|motion| motion.mover(placed.at, context.scene));
+    let mover = context.motion.as_ref().and_then(|motion| motion.mover(placed));
     soup.begin_part(mover);
     if placed.node.extension_value("EXT_mesh_gpu_instancing").is_some() {
         soup.ignore("set of instances");
     }
-    let mut morphs = if context.motion.is_some() { Morphs::new(placed, soup.point_count())? } else { None };
+    let mut morphs = match context.motion {
+        Some(_) => Morphs::new(placed, soup.point_count(), &mut context.budget)?,
+        None => None,
+    };
     for primitive in placed.mesh.primitives() {
+        // Nodes may repeat a mesh of primitives without triangles.
+        context.budget.take(COST)?;
         Reader { placed, primitive, buffers: context.buffers }.add_to(soup, context, morphs.as_mut())?;
     }
     soup.end_part(morphs);
@@ -292,8 +302,10 @@ impl<'a> Reader<'a> {
 
     fn run(&self, mode: Mode, flipped: bool, indexed: bool) -> Run {
         let material = self.primitive.material();
-        let named =
-            |name: Option<&str>, kind: &str, index: usize| name.map_or_else(|| format!("{kind} {index}"), Into::into);
+        let named = |name: Option<&str>, kind: &str, index: usize| match name {
+            Some(name) => name.chars().take(LONGEST_NAME).collect(),
+            None => format!("{kind} {index}"),
+        };
         let marked = self.primitive.extension_value("FB_ngon_encoding").is_some();
         Run {
             node: named(self.placed.node.name(), "node", self.placed.node.index()),

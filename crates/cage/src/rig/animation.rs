@@ -135,8 +135,9 @@ impl Animation {
         for &AnimationChannel { sampler, node, property } in &self.channels {
             let value = self.samplers[sampler as usize].at(time, property == NodeProperty::Rotation);
             if property == NodeProperty::MorphWeights {
-                let sets = rig.morph_sets.iter().zip(&mut pose.morph_weights).filter(|(set, _)| set.node == node);
-                sets.for_each(|(_, weights)| weights.clone_from(&value));
+                if let Some(set) = rig.morph_set_of(node) {
+                    pose.morph_weights[set] = value;
+                }
             } else if let NodeTransform::Decomposed { translation, rotation, scale } =
                 &mut pose.transforms[node as usize]
             {
@@ -166,11 +167,10 @@ impl Animation {
         match channel.property {
             NodeProperty::Translation | NodeProperty::Scale => sampler.width() == 3 && decomposed,
             NodeProperty::Rotation => sampler.width() == 4 && decomposed,
-            NodeProperty::MorphWeights => rig
-                .morph_sets
-                .iter()
-                .filter(|set| set.node == channel.node)
-                .all(|set| set.targets.len() == sampler.width()),
+            NodeProperty::MorphWeights => {
+                let set = rig.morph_set_of(channel.node).map(|set| &rig.morph_sets[set]);
+                set.is_none_or(|set| set.targets.len() == sampler.width())
+            }
         }
     }
 }

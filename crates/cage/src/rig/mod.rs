@@ -108,7 +108,7 @@ pub struct Rig {
     pub joint_indices: Vec<u32>,
     /// Their weights: at least 0, with the sum 1 for each vertex; 0 where there are fewer.
     pub joint_weights: Vec<f32>,
-    /// The morph targets.
+    /// The morph targets, in the order of their nodes, at most one set for each.
     pub morph_sets: Vec<MorphSet>,
     /// The animations.
     pub animations: Vec<Animation>,
@@ -122,6 +122,12 @@ impl Rig {
     pub fn influences_of(&self, v: usize) -> impl Iterator<Item = (u32, f32)> + '_ {
         let range = v * self.influences..(v + 1) * self.influences;
         self.joint_indices[range.clone()].iter().copied().zip(self.joint_weights[range].iter().copied())
+    }
+
+    /// The index of the morph set of a node, if it has one.
+    #[must_use]
+    pub fn morph_set_of(&self, node: u32) -> Option<usize> {
+        self.morph_sets.binary_search_by_key(&node, |set| set.node).ok()
     }
 
     /// Names the first thing that does not fit a cage of that many vertices.
@@ -138,6 +144,7 @@ impl Rig {
                 && set.weights.len() == set.targets.len()
                 && set.targets.iter().all(|target| target.fits(vertices))
         });
+        let sorted = self.morph_sets.is_sorted_by(|a, b| a.node < b.node);
         let finite = self.bind_positions.iter().all(|p| p.is_finite())
             && self.joint_weights.iter().all(|&w| w.is_finite() && w >= 0.0);
         for (holds, fault) in [
@@ -146,6 +153,7 @@ impl Rig {
             (joints, "joints must name nodes that exist"),
             (influences, "vertices must name joints that exist"),
             (morphs, "morph sets must name nodes and vertices that exist, rising, with a weight for each target"),
+            (sorted, "morph sets must be in the order of their nodes, one for each"),
             (finite, "bind positions and weights must be finite and weights at least 0"),
             (self.animations.iter().all(|animation| animation.fits(self)), "animations must name what exists"),
         ] {

@@ -135,3 +135,28 @@ fn small_files_that_ask_for_much() {
     file.json["accessors"][2]["type"] = json!("VEC3");
     assert!(file.refused().contains("more than 67108864 numbers"), "{}", file.refused());
 }
+
+#[test]
+fn small_files_that_ask_for_much_work() {
+    // A mesh at every node of a long chain that is animated at its root.
+    let mut file = square();
+    let depth = 30_000;
+    let mut nodes: Vec<_> = (1..depth).map(|child| json!({"mesh": 0, "children": [child]})).collect();
+    nodes.push(json!({"mesh": 0}));
+    file.json["nodes"] = json!(nodes);
+    let times = file.accessor("SCALAR", 5126, 1, &[0; 4]);
+    let values = file.accessor("VEC3", 5126, 1, &[0; 12]);
+    file.json["animations"] = json!([{
+        "samplers": [{"input": times, "output": values}],
+        "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]
+    }]);
+    assert_eq!(file.read().face_count(), 2 * depth);
+    // Empty primitives, many times in many places.
+    let mut file = square();
+    let nothing = file.indices(&[]);
+    let empty = json!({"attributes": {"POSITION": 0}, "indices": nothing});
+    file.json["meshes"][0]["primitives"] = json!(vec![empty; 3000]);
+    file.json["nodes"] = json!(vec![json!({"mesh": 0}); 3000]);
+    file.json["scenes"] = json!([{"nodes": (0..3000).collect::<Vec<_>>()}]);
+    assert!(file.refused().contains("more than 67108864 numbers"), "{}", file.refused());
+}
