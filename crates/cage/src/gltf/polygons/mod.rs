@@ -167,9 +167,7 @@ pub(super) fn recover(run: &Run, points: &Points, recovery: PolygonRecovery, fac
         let whole: Vec<[u32; 3]> = run.triangles.iter().copied().filter(|t| points.is_whole(t)).collect();
         faces.dropped += run.triangles.len() - whole.len();
         faces.report.triangles += whole.len();
-        let by_order = if recovery.order { order::pairs(&whole, points) } else { None };
-        let by_shape = || if recovery.shape { shape::pairs(&whole, points) } else { None };
-        match by_order.map(|pairs| (pairs, FaceSource::Order)).or_else(|| Some((by_shape()?, FaceSource::Shape))) {
+        match find_pairs(&whole, points, recovery) {
             Some((pairs, source)) => add_pairs(&whole, &pairs, source, faces),
             None => whole.iter().for_each(|triangle| faces.push(triangle, FaceSource::Triangle)),
         }
@@ -177,6 +175,25 @@ pub(super) fn recover(run: &Run, points: &Points, recovery: PolygonRecovery, fac
     if run.flipped {
         faces.reverse_from(first);
     }
+}
+
+/// The quads that triangles make, and what says so.
+fn find_pairs(triangles: &[[u32; 3]], points: &Points, recovery: PolygonRecovery) -> Option<(Vec<Pair>, FaceSource)> {
+    let by_order = if recovery.order { order::pairs(triangles, points) } else { None };
+    let is_all = |pairs: &Vec<Pair>| 2 * pairs.len() == triangles.len();
+    if by_order.as_ref().is_some_and(is_all) || !recovery.shape {
+        return Some((by_order?, FaceSource::Order));
+    }
+    let by_shape = shape::pairs(triangles, points).map(|pairs| (pairs, FaceSource::Shape));
+    let Some(by_order) = by_order else { return by_shape };
+    // Strips look like halves in a row that some do not fit into. Their quads leave nothing over, and are no worse but for rounding.
+    let least = mean_quality(&by_order) - 1e-9;
+    let is_better = |(pairs, _): &(Vec<Pair>, _)| is_all(pairs) && mean_quality(pairs) >= least;
+    Some(by_shape.filter(is_better).unwrap_or((by_order, FaceSource::Order)))
+}
+
+fn mean_quality(pairs: &[Pair]) -> f64 {
+    pairs.iter().map(|pair| pair.quality).sum::<f64>() / pairs.len().max(1) as f64
 }
 
 /// Adds quads at the place of the earlier of their triangles, and the triangles that are in no pair.

@@ -8,6 +8,8 @@ use super::{Pair, Points};
 
 /// Part of the triangles that must be in pairs of the exporter's patterns.
 const ENOUGH: f64 = 0.75;
+/// Part of the pairs that must be halves of quads if there are only quads; strips have theirs anywhere.
+const ALIGNED: f64 = 0.9;
 /// Worth of a pair beside its quality: odd quads are quads too.
 const PRESENCE: f64 = 0.25;
 /// Triangles around a vertex, a pole or an n-gon, are in order as well; only good quads are taken from them.
@@ -25,9 +27,11 @@ pub(super) fn pairs(triangles: &[[u32; 3]], points: &Points) -> Option<Vec<Pair>
     if chosen.is_empty() || covered < ENOUGH {
         return None;
     }
-    // A mesh of nothing but quads may have concave ones and folded ones.
+    // A mesh of nothing but quads may have concave ones and folded ones, for which most others leave room.
+    let aligned = chosen.iter().filter(|pair| pair.triangles[0].is_multiple_of(2)).count();
+    let only_quads = triangles.len().is_multiple_of(2) && aligned as f64 >= ALIGNED * chosen.len() as f64;
     let halves: Option<Vec<Pair>> = all.iter().step_by(2).map(fits).collect();
-    Some(halves.filter(|_| triangles.len().is_multiple_of(2)).unwrap_or(chosen))
+    Some(halves.filter(|_| only_quads).unwrap_or(chosen))
 }
 
 /// Drops poor pairs from rows of four and more triangles around one vertex.

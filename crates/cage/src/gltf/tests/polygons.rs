@@ -212,6 +212,59 @@ fn the_order_survives_split_vertices() {
     assert_eq!(face_sets(&cage), mesh.face_sets());
 }
 
+/// The grid of a tessellated patch: 4 by 4 quads in two rings of strips, with diagonals towards the middle.
+#[test]
+fn strips_in_rings_are_no_exporters_order() {
+    let around = |side: i32| {
+        let walk = [[1, 0], [0, 1], [-1, 0], [0, -1]].into_iter().flat_map(move |step| vec![step; side as usize]);
+        walk.scan([-side / 2; 2], |at, [x, y]| {
+            let here = *at;
+            *at = [at[0] + x, at[1] + y];
+            Some(here.map(|x| x as f32))
+        })
+    };
+    let mut points = vec![[0.0; 3]; 25];
+    let outer = [0, 1, 4, 5, 7, 8, 10, 11, 13, 14, 16, 17, 19, 20, 22, 23];
+    let inner = [2, 3, 6, 9, 12, 15, 18, 21];
+    outer.into_iter().zip(around(4)).chain(inner.into_iter().zip(around(2))).for_each(|(v, [x, y])| {
+        points[v] = [x, y, 0.0];
+    });
+    let mut triangles: Vec<[u32; 3]> = vec![
+        [0, 1, 2],
+        [2, 1, 3],
+        [1, 4, 3],
+        [4, 5, 3],
+        [3, 5, 6],
+        [5, 7, 6],
+        [7, 8, 6],
+        [6, 8, 9],
+        [8, 10, 9],
+        [10, 11, 9],
+        [9, 11, 12],
+        [11, 13, 12],
+        [13, 14, 12],
+        [12, 14, 15],
+        [14, 16, 15],
+        [16, 17, 15],
+        [15, 17, 18],
+        [17, 19, 18],
+        [19, 20, 18],
+        [18, 20, 21],
+        [20, 22, 21],
+        [22, 23, 21],
+        [21, 23, 2],
+        [23, 0, 2],
+    ];
+    triangles.extend((0..8).map(|k| [inner[k] as u32, inner[(k + 1) % 8] as u32, 24]));
+    let cage = Mesh { points, faces: Vec::new() }.file(&triangles).read_with(&GltfDesc::default());
+    assert_eq!((cage.face_count(), cage.is_quads(), report(&cage).by_shape), (16, true, 16));
+    let area = |f: usize| {
+        let [a, _, c, _] = [0, 1, 2, 3].map(|k| cage.positions()[cage.face(f)[k] as usize]);
+        (c - a).abs()
+    };
+    assert!((0..16).all(|f| area(f) == DVec3::new(1.0, 1.0, 0.0)), "unit squares");
+}
+
 #[test]
 fn shuffled_halves_become_quads_by_shape() {
     let mut random = Random::new(5);
