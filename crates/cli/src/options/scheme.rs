@@ -116,10 +116,14 @@ mod tests {
 
     #[test]
     fn lists_name_each_scheme_once() {
-        let choices = ["gregory2", "all", "gregory2"].map(|text| text.parse().unwrap());
-        let schemes = SchemeChoice::schemes(&choices).unwrap();
-        assert_eq!(schemes.len(), Scheme::ALL.len());
-        assert_eq!(schemes, Scheme::ALL);
+        let schemes = |texts: &[&str]| {
+            let choices: Vec<_> = texts.iter().map(|text| text.parse().unwrap()).collect();
+            SchemeChoice::schemes(&choices).unwrap()
+        };
+        assert_eq!(schemes(&["all", "stam"]), Scheme::ALL);
+        let stam_first = schemes(&["stam", "all", "stam"]);
+        assert_eq!(stam_first[0], Scheme::Stam);
+        assert_eq!(stam_first.len(), Scheme::ALL.len());
     }
 
     #[test]
