@@ -1,5 +1,6 @@
 //! Reading a cage from a file.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use crate::{Cage, CreaseDesc, GltfDesc, Limits, ReadError, RepairDesc, obj, off, ply, read_gltf};
@@ -74,8 +75,20 @@ impl Cage {
     /// # Errors
     /// As [`Cage::read`], and files beyond the limits.
     pub fn read_with(path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {
+        Self::read_owned_or_borrowed(desc.limits.read_file(path)?.into(), path, desc)
+    }
+
+    /// Reads a cage from bytes as if they were the file at `path`, which says what messages call it, where its external buffers
+    /// are, and what its format is where the bytes do not tell.
+    ///
+    /// # Errors
+    /// As [`Cage::read_with`].
+    pub fn read_bytes(bytes: &[u8], path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {
+        Self::read_owned_or_borrowed(bytes.into(), path, desc)
+    }
+
+    fn read_owned_or_borrowed(bytes: Cow<'_, [u8]>, path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {
         let name = path.display().to_string();
-        let bytes = desc.limits.read_file(path)?;
         let draft = match FileFormat::of(path, &bytes).ok_or_else(|| ReadError::UnknownFormat { file: path.into() })? {
             FileFormat::Obj => obj::draft(&bytes, &name, desc)?,
             FileFormat::Ply => ply::draft(&bytes, &name, desc)?,
@@ -111,6 +124,15 @@ mod tests {
         assert_eq!(format("a.ply", "glTF\x02\0\0\0"), Some(FileFormat::Gltf));
         assert_eq!(format("a.obj", "plywood"), Some(FileFormat::Obj));
         assert_eq!(format("a.stl", "solid"), None);
+    }
+
+    #[test]
+    fn bytes_are_read_like_the_file_they_would_be() {
+        let read = |bytes: &str, name: &str| Cage::read_bytes(bytes.as_bytes(), Path::new(name), &ReadDesc::default());
+        assert_eq!(read(TRIANGLE, "a/b.obj").expect("a cage").face_count(), 1);
+        let message = |bytes, name| read(bytes, name).expect_err("must be refused").to_string();
+        assert_eq!(message("f 1 2\n", "a/b.obj"), "a/b.obj:1: a face with 2 corners; faces have at least 3");
+        assert!(message(TRIANGLE, "a/b.stl").starts_with("a/b.stl: unknown kind of file"));
     }
 
     #[test]
