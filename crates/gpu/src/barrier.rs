@@ -91,6 +91,12 @@ pub(crate) struct Barriers {
     pub(crate) images: Vec<Transition>,
 }
 
+impl Barriers {
+    pub(crate) fn is_empty(&self) -> bool {
+        self.memory.is_none() && self.images.is_empty()
+    }
+}
+
 /// A change of an image's layout, with its dependency.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Transition {
@@ -99,6 +105,15 @@ pub(crate) struct Transition {
     pub(crate) destination: Scope,
     pub(crate) from: vk::ImageLayout,
     pub(crate) to: vk::ImageLayout,
+}
+
+impl Transition {
+    /// A change between submissions: after all before, and before all after.
+    pub(crate) fn between(image: ResourceId, from: vk::ImageLayout, to: vk::ImageLayout) -> Self {
+        let source = Scope::new(vk::PipelineStageFlags2::ALL_COMMANDS, vk::AccessFlags2::MEMORY_WRITE);
+        let access = vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE;
+        Self { image, source, destination: Scope::new(vk::PipelineStageFlags2::ALL_COMMANDS, access), from, to }
+    }
 }
 
 /// What has happened to a resource so far.

@@ -223,6 +223,7 @@ impl Buffer {
         // lives as long as self; the two cannot overlap, since the mapping is never lent out. While `_idle` lives, neither the
         // GPU nor another thread touches the content; the GPU sees host writes that come before a submission.
         unsafe { target.copy_from_nonoverlapping(NonNull::from(bytes).cast(), bytes.len()) };
+        self.inner.device.shared.memory.count_written(bytes.len() as u64);
         Ok(())
     }
 

@@ -239,7 +239,8 @@ impl<'a> Encoder<'a> {
         unsafe { self.device.raw().cmd_copy_image_to_buffer2(self.commands, &info) }
     }
 
-    fn barriers(&self, barriers: &Barriers) {
+    /// Writes barriers alone.
+    pub(crate) fn barriers(&self, barriers: &Barriers) {
         let memory: Vec<_> =
             barriers.memory.iter().map(|(source, destination)| memory_barrier(*source, *destination)).collect();
         let images: Vec<_> = barriers

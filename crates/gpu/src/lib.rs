@@ -5,7 +5,8 @@
 //! * [`Device`] is opened by [`DeviceDesc`]; [`Buffer`], [`Image`], [`Shader`], [`ComputePipeline`] and [`GraphicsPipeline`] are
 //!   made from it. All are cheap to clone, and go when the last clone is dropped.
 //! * A [`Recording`] is a plan: plain data, nothing happens. [`Device::submit`] checks it, derives its barriers from what the
-//!   shaders declare, and hands it to the GPU. A [`Submission`] keeps alive what it uses.
+//!   shaders declare, and hands it to the GPU. A [`Submission`] keeps alive what it uses. What runs again and again, as the
+//!   frames of an animation do, is checked and encoded once by [`Device::prepare`].
 //! * Layouts are read from the shaders ([`Reflection`]): buffers of descriptor set 0, pushed with every pass, and push constants.
 //!   `readonly` and `writeonly` in GLSL spare barriers.
 //!
@@ -56,6 +57,7 @@ mod messages;
 mod owned;
 mod pipeline;
 mod plan;
+mod prepared;
 mod query;
 mod recording;
 mod reflect;
@@ -75,8 +77,10 @@ pub use graphics::{
 };
 pub use image::{Image, ImageDesc, ImageUsage};
 pub use info::{DeviceInfo, DeviceKind, Features, Limits};
+pub use memory::MemoryUse;
 pub use messages::MessageLog;
 pub use pipeline::{ComputePipeline, ComputePipelineDesc};
+pub use prepared::{Prepared, Workload};
 pub use query::{PassStatistics, Report};
 pub use recording::{
     CapturePass, ColorTarget, ComputePass, DepthTarget, Draw, Measure, Recording, RenderPass, Vertices,

@@ -1,6 +1,9 @@
 //! Memory behind buffers and images.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{
+    Arc, Mutex, PoisonError,
+    atomic::{AtomicU64, Ordering},
+};
 
 use ash::vk;
 use gpu_allocator::{
@@ -8,12 +11,55 @@ use gpu_allocator::{
     vulkan::{Allocation, AllocationCreateDesc, AllocationScheme, Allocator, AllocatorCreateDesc},
 };
 
-use crate::{GpuError, instance::Instance, owned::RawDevice};
+use crate::{Device, GpuError, instance::Instance, owned::RawDevice};
+
+/// What a device has been asked for so far: to see what a frame costs, take the difference of two.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub struct MemoryUse {
+    /// Buffers and images that exist.
+    pub live: u64,
+    /// Bytes of memory that they take.
+    pub live_bytes: u64,
+    /// Buffers and images made so far.
+    pub made: u64,
+    /// Bytes that the host has written into buffers so far.
+    pub host_bytes_written: u64,
+}
+
+impl Device {
+    /// What is and was asked of its memory, by all clones of the device.
+    pub fn memory_use(&self) -> MemoryUse {
+        self.shared.memory.counters.read()
+    }
+}
+
+/// Running totals of [`MemoryUse`].
+#[derive(Default)]
+struct Counters {
+    live: AtomicU64,
+    live_bytes: AtomicU64,
+    made: AtomicU64,
+    host_bytes_written: AtomicU64,
+}
+
+impl Counters {
+    fn read(&self) -> MemoryUse {
+        let value = |counter: &AtomicU64| counter.load(Ordering::Relaxed);
+        MemoryUse {
+            live: value(&self.live),
+            live_bytes: value(&self.live_bytes),
+            made: value(&self.made),
+            host_bytes_written: value(&self.host_bytes_written),
+        }
+    }
+}
 
 /// The allocator of a device. Field order is destruction order: the allocator frees its blocks while the device is there.
 pub(crate) struct Memory {
     allocator: Mutex<Allocator>,
     max_allocation: u64,
+    counters: Counters,
     _device: Arc<RawDevice>,
 }
 
@@ -39,7 +85,17 @@ impl Memory {
             buffer_device_address: false,
             allocation_sizes: AllocationSizes::default(),
         })?;
-        Ok(Arc::new(Self { allocator: Mutex::new(allocator), max_allocation, _device: Arc::clone(device) }))
+        Ok(Arc::new(Self {
+            allocator: Mutex::new(allocator),
+            max_allocation,
+            counters: Counters::default(),
+            _device: Arc::clone(device),
+        }))
+    }
+
+    /// Takes note of bytes that the host has written.
+    pub(crate) fn count_written(&self, bytes: u64) {
+        self.counters.host_bytes_written.fetch_add(bytes, Ordering::Relaxed);
     }
 
     /// Takes memory; `linear` for buffers.
@@ -59,6 +115,9 @@ impl Memory {
         let mut allocator = self.allocator.lock().unwrap_or_else(PoisonError::into_inner);
         let allocation = allocator.allocate(&desc).map_err(|error| failure(name, requirements.size, error))?;
         drop(allocator);
+        self.counters.live.fetch_add(1, Ordering::Relaxed);
+        self.counters.made.fetch_add(1, Ordering::Relaxed);
+        self.counters.live_bytes.fetch_add(allocation.size(), Ordering::Relaxed);
         Ok(Block { allocation: Some(allocation), memory: Arc::clone(self) })
     }
 }
@@ -91,8 +150,11 @@ impl Block {
 
 impl Drop for Block {
     fn drop(&mut self) {
+        let Some(allocation) = self.allocation.take() else { return };
+        self.memory.counters.live.fetch_sub(1, Ordering::Relaxed);
+        self.memory.counters.live_bytes.fetch_sub(allocation.size(), Ordering::Relaxed);
         let mut allocator = self.memory.allocator.lock().unwrap_or_else(PoisonError::into_inner);
-        if let Some(Err(error)) = self.allocation.take().map(|allocation| allocator.free(allocation)) {
+        if let Err(error) = allocator.free(allocation) {
             tracing::error!("freeing GPU memory failed: {error}");
         }
     }

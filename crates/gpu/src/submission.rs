@@ -26,7 +26,7 @@ use crate::{
 /// A command pool with its one command buffer, used by one submission at a time.
 pub(crate) struct Commands {
     pool: Owned<vk::CommandPool>,
-    buffer: vk::CommandBuffer,
+    pub(crate) buffer: vk::CommandBuffer,
 }
 
 /// Work that the GPU does. Keeps alive all it uses, and dropping it waits for its end: to have several in flight, keep them.
@@ -73,14 +73,24 @@ impl Device {
         self.submit(recording)?.wait()
     }
 
-    /// A command buffer in the recording state.
-    fn begin(&self, queue: &mut Queue) -> Result<Commands, GpuError> {
-        let failed = |result| GpuError::from_vulkan("beginning a command buffer", result);
+    /// A command buffer in the recording state, to be submitted once.
+    pub(crate) fn begin(&self, queue: &mut Queue) -> Result<Commands, GpuError> {
         let commands = match queue.idle.pop() {
             Some(commands) => commands,
             None => self.create_commands(queue.family)?,
         };
-        let info = vk::CommandBufferBeginInfo::default().flags(vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT);
+        self.begin_commands(commands, vk::CommandBufferUsageFlags::ONE_TIME_SUBMIT)
+    }
+
+    /// A new command buffer in the recording state, to be submitted as often as one likes.
+    pub(crate) fn begin_reusable(&self, queue: &Queue) -> Result<Commands, GpuError> {
+        self.begin_commands(self.create_commands(queue.family)?, vk::CommandBufferUsageFlags::empty())
+    }
+
+    /// Puts a command buffer that is not in use into the recording state.
+    fn begin_commands(&self, commands: Commands, flags: vk::CommandBufferUsageFlags) -> Result<Commands, GpuError> {
+        let failed = |result| GpuError::from_vulkan("beginning a command buffer", result);
+        let info = vk::CommandBufferBeginInfo::default().flags(flags);
         // SAFETY: the pool is not in use: it is new, or its submission is complete.
         unsafe {
             self.raw().reset_command_pool(commands.pool.raw, vk::CommandPoolResetFlags::empty()).map_err(failed)?;
@@ -107,20 +117,34 @@ impl Device {
 
     /// Ends recording and submits; the value that the timeline reaches afterwards.
     fn end_and_submit(&self, queue: &mut Queue, commands: &Commands) -> Result<u64, GpuError> {
-        let failed = |result| GpuError::from_vulkan("submitting", result);
+        self.end(commands)?;
+        self.enqueue(queue, &[vk::CommandBufferSubmitInfo::default().command_buffer(commands.buffer)])
+    }
+
+    /// Ends recording.
+    pub(crate) fn end(&self, commands: &Commands) -> Result<(), GpuError> {
+        // SAFETY: `begin` or `begin_reusable` put the buffer into the recording state, and nobody else has it.
+        unsafe { self.raw().end_command_buffer(commands.buffer) }
+            .map_err(|result| GpuError::from_vulkan("ending a command buffer", result))
+    }
+
+    /// Submits command buffers that are complete and not in use; the value that the timeline reaches afterwards. Callers keep
+    /// what the commands use until then.
+    pub(crate) fn enqueue(
+        &self,
+        queue: &mut Queue,
+        buffers: &[vk::CommandBufferSubmitInfo<'_>],
+    ) -> Result<u64, GpuError> {
         let value = queue.submitted + 1;
-        let buffers = [vk::CommandBufferSubmitInfo::default().command_buffer(commands.buffer)];
         let signals = [vk::SemaphoreSubmitInfo::default()
             .semaphore(self.shared.timeline.raw)
             .value(value)
             .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
-        let info = vk::SubmitInfo2::default().command_buffer_infos(&buffers).signal_semaphore_infos(&signals);
-        // SAFETY: the command buffer is complete; the lock on `queue` makes the access exclusive; what the commands use stays
-        // alive in the submission; the value is greater than all before.
-        unsafe {
-            self.raw().end_command_buffer(commands.buffer).map_err(failed)?;
-            self.raw().queue_submit2(queue.raw, &[info], vk::Fence::null()).map_err(failed)?;
-        }
+        let info = vk::SubmitInfo2::default().command_buffer_infos(buffers).signal_semaphore_infos(&signals);
+        // SAFETY: the command buffers are complete; the lock on `queue` makes the access exclusive; what the commands use stays
+        // alive as our callers promise; the value is greater than all before.
+        unsafe { self.raw().queue_submit2(queue.raw, &[info], vk::Fence::null()) }
+            .map_err(|result| GpuError::from_vulkan("submitting", result))?;
         queue.submitted = value;
         Ok(value)
     }
@@ -128,9 +152,14 @@ impl Device {
 
 /// Locks all buffers, each of which occurs once, in the order that all submissions keep.
 fn lock_in_order<'a>(buffers: impl Iterator<Item = &'a Buffer>) -> Vec<MutexGuard<'a, u64>> {
+    in_order(buffers).into_iter().map(Buffer::lock).collect()
+}
+
+/// The order in which buffers are locked.
+pub(crate) fn in_order<'a>(buffers: impl Iterator<Item = &'a Buffer>) -> Vec<&'a Buffer> {
     let mut buffers: Vec<&Buffer> = buffers.collect();
     buffers.sort_unstable_by_key(|buffer| buffer.id());
-    buffers.into_iter().map(Buffer::lock).collect()
+    buffers
 }
 
 impl Submission {

@@ -6,6 +6,7 @@ mod capture;
 mod compute;
 mod device;
 mod harness;
+mod prepared;
 mod reflection;
 mod refusals;
 mod render;
