@@ -21,7 +21,8 @@ pub(super) fn carry(desc: CageDesc, tags: Tags, loops: &Loops, fans: &Fans, turn
     let place_of_vertex = places_of_vertices(loops, fans);
     let corners: Vec<u32> = order.iter().map(|&c| loops.corners[c as usize]).collect();
     let mut rig = desc.rig.clone();
-    rig.iter_mut().for_each(|rig| rig.gather_vertices(&fans.sources));
+    // The vertices of a place move alike, but only the first is bound where the place is.
+    rig.iter_mut().for_each(|rig| rig.gather_vertices(&place_of_vertex));
     CageDesc {
         // Of vertices at one place, all are at the first: what lies near another vertex now lies there.
         positions: place_of_vertex.iter().map(|&place| desc.positions[place as usize]).collect(),

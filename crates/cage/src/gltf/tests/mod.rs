@@ -4,6 +4,7 @@ mod damage;
 mod look;
 mod motion;
 mod polygons;
+mod repair;
 
 use std::path::Path;
 
