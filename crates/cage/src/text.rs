@@ -41,11 +41,17 @@ pub(crate) fn words(line: &[u8]) -> impl Iterator<Item = &[u8]> {
 /// A word for a message; long ones are cut.
 pub(crate) fn quoted(word: &[u8]) -> String {
     const LONGEST: usize = 40;
-    let text = String::from_utf8_lossy(word);
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.into_owned(),
+    excerpt(&String::from_utf8_lossy(word), LONGEST)
+}
+
+/// The first characters of a text, as part of a message in one line: what a terminal would obey is replaced.
+pub(crate) fn excerpt(text: &str, longest: usize) -> String {
+    let printable = |c: char| if c.is_control() { char::REPLACEMENT_CHARACTER } else { c };
+    let mut excerpt: String = text.chars().take(longest).map(printable).collect();
+    if text.chars().nth(longest).is_some() {
+        excerpt += "...";
     }
+    excerpt
 }
 
 /// A number, which may be infinite or not a number.
@@ -98,5 +104,11 @@ mod tests {
     #[test]
     fn long_words_are_cut_in_messages() {
         assert_eq!(quoted(&[b'x'; 100]), format!("{}...", "x".repeat(40)));
+        assert_eq!(quoted(&[b'x'; 40]), "x".repeat(40));
+    }
+
+    #[test]
+    fn no_word_breaks_the_line_of_a_message() {
+        assert_eq!(quoted(b"a\x1b[2J\x7fb\xff"), "a\u{fffd}[2J\u{fffd}b\u{fffd}");
     }
 }

@@ -6,6 +6,7 @@ use ::gltf::{Document, Gltf, Semantic};
 
 use super::GltfError;
 use crate::listed::numbered;
+use crate::text::excerpt;
 
 /// Extensions that change nothing about the shape, or that are read.
 const KNOWN: [&str; 7] = [
@@ -46,9 +47,10 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Gltf, GltfError> {
 
 /// A message in one line.
 fn malformed(faults: impl IntoIterator<Item = String>) -> GltfError {
+    const LONGEST: usize = 200;
     let lines: Vec<String> = faults
         .into_iter()
-        .flat_map(|fault| fault.lines().map(|line| line.trim().to_owned()).collect::<Vec<_>>())
+        .flat_map(|fault| fault.lines().map(|line| excerpt(line.trim(), LONGEST)).collect::<Vec<_>>())
         .filter(|line| !line.is_empty())
         .collect();
     GltfError::Format(lines.join("; "))
@@ -160,8 +162,5 @@ fn is_harmless(path: &str, fault: Fault) -> bool {
 /// A name or uri for a message.
 pub(super) fn cut(text: &str) -> String {
     const LONGEST: usize = 60;
-    match text.char_indices().nth(LONGEST) {
-        Some((end, _)) => format!("{}...", &text[..end]),
-        None => text.into(),
-    }
+    excerpt(text, LONGEST)
 }

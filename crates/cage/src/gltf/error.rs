@@ -4,6 +4,7 @@ use std::fmt;
 use std::path::PathBuf;
 
 use crate::LimitError;
+use crate::text::excerpt;
 
 /// Why a glTF file cannot be read. Indices are those of the file's arrays, from 0.
 #[derive(Debug, thiserror::Error)]
@@ -95,7 +96,7 @@ pub enum GltfError {
     #[error("buffer {0} has malformed base64 data")]
     BufferBase64(usize),
     /// A buffer whose file cannot be read.
-    #[error("buffer {buffer}: {}: {error}", .file.display())]
+    #[error("buffer {buffer}: {}: {error}", excerpt(&.file.to_string_lossy(), 300))]
     BufferFile {
         /// The buffer.
         buffer: usize,

@@ -76,7 +76,8 @@ impl File {
         gauge.bytes(buffers.size() as u64)?;
         let scene = Scene::new(&gltf)?;
         let motion = Motion::new(&gltf, &scene, &buffers)?;
-        let mut context = Context { scene: &scene, buffers: &buffers, motion, budget: Budget::default(), gauge };
+        let budget = Budget::new(limits);
+        let mut context = Context { scene: &scene, buffers: &buffers, motion, budget, gauge };
         let mut soup = Soup::default();
         for placed in &scene.meshes {
             primitive::add_mesh(placed, &mut context, &mut soup)?;

@@ -12,7 +12,7 @@ use super::accessor::{Purpose, Vectors};
 use super::buffers::Buffers;
 use super::scene::{PlacedMesh, Scene};
 use super::{GltfError, GltfPlace};
-use crate::{Joint, Rig};
+use crate::{Joint, LimitError, Limits, Rig};
 
 /// Most numbers that are kept beside positions. Accessors may be used any number of times: a small file must not ask for all memory.
 const MOST_NUMBERS: usize = 1 << 26;
@@ -21,17 +21,25 @@ const MOST_NUMBERS: usize = 1 << 26;
 pub(super) type Influences = [(u32, f32); Rig::MAX_INFLUENCES];
 
 /// Counts the numbers that a file asks for.
-pub(super) struct Budget(usize);
-
-impl Default for Budget {
-    fn default() -> Self {
-        Self(MOST_NUMBERS)
-    }
+pub(super) struct Budget {
+    taken: usize,
+    limits: Limits,
 }
 
 impl Budget {
+    pub(super) fn new(limits: Limits) -> Self {
+        Self { taken: 0, limits }
+    }
+
+    /// Numbers have 4 bytes.
     pub(super) fn take(&mut self, numbers: usize) -> Result<(), GltfError> {
-        self.0 = self.0.checked_sub(numbers).ok_or(GltfError::TooMuch(MOST_NUMBERS))?;
+        self.taken = self.taken.saturating_add(numbers);
+        if self.taken > MOST_NUMBERS {
+            return Err(GltfError::TooMuch(MOST_NUMBERS));
+        }
+        if 4 * self.taken as u64 > self.limits.memory_bytes {
+            return Err(LimitError::Memory { limit: self.limits.memory_bytes }.into());
+        }
         Ok(())
     }
 }
