@@ -145,6 +145,7 @@ impl<'a> Canvas<'a> {
                 push: Vec::new(),
                 vertices: (0..2 * surface.cage_edge_count()).into(),
                 instances: 0..1,
+                scissor: None,
             });
         }
         Ok(())
@@ -226,7 +227,7 @@ impl Targets {
         }
         let color = if desc.shade == Shade::Peer { Format::Rgba8Unorm } else { Format::Rgba8Srgb };
         let image = |name: &str, format, samples, usage| {
-            engine.device().image(&ImageDesc { name, size: desc.size, format, samples, usage })
+            engine.device().image(&ImageDesc { name, size: desc.size, format, samples, usage, ..ImageDesc::default() })
         };
         let (drawn, read) = (ImageUsage::TARGET, ImageUsage::TARGET | ImageUsage::COPY_SRC);
         let several = desc.samples > 1;
@@ -252,7 +253,8 @@ impl Targets {
                 resolve: self.resolved.clone(),
             }),
             depth: Some(DepthTarget { image: self.depth.clone(), clear: (!add).then_some(1.0) }),
-            size: desc.size,
+            viewport: desc.size.into(),
+            area: None,
             draws,
         }
     }

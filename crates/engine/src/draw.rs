@@ -226,6 +226,7 @@ impl Surface {
             push: bytes_of(&push).to_vec(),
             vertices: (run.first * points..(run.first + run.count) * points).into(),
             instances: 0..1,
+            scissor: None,
         })
     }
 }

@@ -149,6 +149,7 @@ impl<'a> Grids<'a> {
             push: Vec::new(),
             vertices: Vertices::Indexed { indices: indices.clone(), range: 0..chunk.indices.len() as u32 },
             instances: 0..1,
+            scissor: None,
         })
     }
 }

@@ -77,6 +77,11 @@ impl Uses {
         self.positions.contains_key(&resource)
     }
 
+    /// The layout in which the pass has an image that it uses.
+    pub(crate) fn layout(&self, resource: ResourceId) -> Option<vk::ImageLayout> {
+        self.positions.get(&resource).and_then(|&position| self.uses[position].layout)
+    }
+
     pub(crate) fn as_slice(&self) -> &[Use] {
         &self.uses
     }

@@ -1,41 +1,75 @@
-//! Which buffer is at which binding number.
+//! Which buffer or image is at which binding number.
 
 use std::{ops::Range, sync::Arc};
 
-use crate::Buffer;
+use crate::{Buffer, Image, Sampler};
 
-/// Buffers by binding number. May hold more than a pipeline uses: each takes those that its shaders declare. Clones are cheap.
+/// Buffers and images by binding number. May hold more than a pipeline uses: each takes those that its shaders declare. Clones are cheap.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Bindings {
     /// Ascending by number.
     entries: Arc<Vec<(u32, Bound)>>,
 }
 
-/// A buffer, or a part of it.
+/// What is at a binding number.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub(crate) struct Bound {
-    pub(crate) buffer: Buffer,
-    /// Bytes; `None` is the whole buffer.
-    pub(crate) range: Option<Range<u64>>,
+pub(crate) enum Bound {
+    Buffer {
+        buffer: Buffer,
+        /// Bytes; `None` is the whole buffer.
+        range: Option<Range<u64>>,
+    },
+    Texture {
+        image: Image,
+        sampler: Sampler,
+    },
+    StorageImage {
+        image: Image,
+    },
+}
+
+impl Bound {
+    /// What it is, for messages.
+    pub(crate) fn describe(&self) -> String {
+        match self {
+            Self::Buffer { buffer, .. } => format!("buffer {:?}", buffer.name()),
+            Self::Texture { image, .. } => format!("image {:?} with a sampler", image.name()),
+            Self::StorageImage { image } => format!("image {:?} without a sampler", image.name()),
+        }
+    }
 }
 
 impl Bindings {
-    /// No buffers yet.
+    /// Nothing yet.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// Adds a buffer, in place of any earlier one with this number.
+    /// Adds a buffer, in place of anything that had this number.
     #[must_use]
     pub fn with(self, binding: u32, buffer: &Buffer) -> Self {
-        self.set(binding, Bound { buffer: buffer.clone(), range: None })
+        self.set(binding, Bound::Buffer { buffer: buffer.clone(), range: None })
     }
 
     /// Adds a range of bytes of a buffer. Its start must be a multiple of the device's alignment, see
     /// [`Limits`](crate::Limits).
     #[must_use]
     pub fn with_range(self, binding: u32, buffer: &Buffer, bytes: Range<u64>) -> Self {
-        self.set(binding, Bound { buffer: buffer.clone(), range: Some(bytes) })
+        self.set(binding, Bound::Buffer { buffer: buffer.clone(), range: Some(bytes) })
+    }
+
+    /// Adds an image to look up with a sampler, `sampler2D` in GLSL. Made with
+    /// [`ImageUsage::SAMPLED`](crate::ImageUsage::SAMPLED).
+    #[must_use]
+    pub fn with_texture(self, binding: u32, image: &Image, sampler: &Sampler) -> Self {
+        self.set(binding, Bound::Texture { image: image.clone(), sampler: sampler.clone() })
+    }
+
+    /// Adds an image to read and write texel by texel, `image2D` in GLSL: its level 0. Made with
+    /// [`ImageUsage::STORAGE`](crate::ImageUsage::STORAGE).
+    #[must_use]
+    pub fn with_storage_image(self, binding: u32, image: &Image) -> Self {
+        self.set(binding, Bound::StorageImage { image: image.clone() })
     }
 
     fn set(mut self, binding: u32, bound: Bound) -> Self {

@@ -2,7 +2,7 @@
 
 use ash::vk;
 
-use crate::{ReflectError, Stage};
+use crate::{ReflectError, ResourceKind, Stage};
 
 /// Why no device could be opened.
 #[derive(Debug, thiserror::Error)]
@@ -154,7 +154,7 @@ pub enum GpuError {
     },
     /// Two stages of a pipeline declare one binding differently.
     #[error(
-        "pipeline {pipeline:?}: binding {binding} is a {first_kind} buffer in {first:?} but a {second_kind} buffer in {second:?}"
+        "pipeline {pipeline:?}: binding {binding} is a {first_kind} in {first:?} but a {second_kind} in {second:?}"
     )]
     BindingConflict {
         /// Name of the pipeline.
@@ -164,11 +164,11 @@ pub enum GpuError {
         /// The shader that declares it first.
         first: String,
         /// What it declares.
-        first_kind: &'static str,
+        first_kind: ResourceKind,
         /// The shader that declares it otherwise.
         second: String,
         /// What that one declares.
-        second_kind: &'static str,
+        second_kind: ResourceKind,
     },
     /// A pipeline's description contradicts itself.
     #[error("pipeline {pipeline:?}: {reason}")]
@@ -178,7 +178,7 @@ pub enum GpuError {
         /// The contradiction.
         reason: String,
     },
-    /// A pass does not bind a buffer that a shader reads or writes.
+    /// A pass does not bind a buffer or image that a shader reads or writes.
     #[error("pass {pass:?} binds nothing to binding {binding}, which shader {shader:?} declares as {name:?}")]
     MissingBinding {
         /// Name of the pass.
@@ -187,7 +187,7 @@ pub enum GpuError {
         shader: String,
         /// The binding number.
         binding: u32,
-        /// The shader's name for the buffer.
+        /// The shader's name for it.
         name: String,
     },
     /// A pass gives a pipeline the wrong number of push constant bytes.

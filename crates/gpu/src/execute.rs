@@ -5,11 +5,11 @@ use std::ffi::CString;
 use ash::{ext::transform_feedback::DeviceFn, vk};
 
 use crate::{
-    CapturePass, ColorTarget, DepthTarget, Device, Format, Image, Vertices,
+    CapturePass, ColorTarget, DepthTarget, Device, Format, Image, ImageRegion, Rect, Vertices,
     barrier::{Barriers, Scope},
-    image::whole,
+    image::{layers, range},
     layout::descriptor_type,
-    plan::{Call, Descriptor, DrawCall, Kept, Step, Work, runs},
+    plan::{Call, Content, Descriptor, DrawCall, Kept, Step, Work, runs},
     query::Queries,
 };
 
@@ -62,14 +62,16 @@ impl<'a> Encoder<'a> {
     fn work(&self, index: u32, work: &Work<'_>) {
         match work {
             Work::Dispatch { call, groups } => self.dispatch(call, *groups),
-            Work::Render { pass, draws } => {
-                self.begin_rendering(pass.size, pass.color.as_ref(), pass.depth.as_ref());
-                self.draws(draws);
+            Work::Render { pass, area, draws } => {
+                self.begin_rendering(pass.viewport, *area, pass.color.as_ref(), pass.depth.as_ref());
+                self.draws(draws, *area);
                 self.end_rendering();
             }
             Work::Capture { pass, size, draws, counter } => self.capture(index, pass, *size, draws, *counter),
             Work::CopyBuffer { source, target, region } => self.copy_buffer(*source, *target, *region),
-            Work::CopyImage { image, buffer } => self.copy_image(image, *buffer),
+            Work::CopyFromImage { source, buffer, offset } => self.copy_from_image(source, *buffer, *offset),
+            Work::CopyToImage { buffer, offset, target } => self.copy_to_image(*buffer, *offset, target),
+            Work::FillLevels { image } => self.fill_levels(image),
         }
     }
 
@@ -80,18 +82,27 @@ impl<'a> Encoder<'a> {
         unsafe { self.device.raw().cmd_dispatch(self.commands, x, y, z) }
     }
 
-    fn draws(&self, draws: &[DrawCall<'_>]) {
+    /// Draws within an area, to which the scissor is set.
+    fn draws(&self, draws: &[DrawCall<'_>], area: Rect) {
+        let mut scissor = area;
         for run in runs(draws) {
-            self.run(run);
+            self.begin_label(&run[0].call.pipeline.name);
+            self.bind_pipeline(&run[0].call);
+            for draw in run {
+                let wanted = draw.scissor.map_or(area, |scissor| scissor.intersection(area));
+                if wanted != scissor {
+                    scissor = wanted;
+                    self.set_scissor(scissor);
+                }
+                self.draw(draw);
+            }
+            self.end_label();
         }
     }
 
-    /// Draws of one pipeline, under its name.
-    fn run(&self, run: &[DrawCall<'_>]) {
-        self.begin_label(&run[0].call.pipeline.name);
-        self.bind_pipeline(&run[0].call);
-        run.iter().for_each(|draw| self.draw(draw));
-        self.end_label();
+    fn set_scissor(&self, scissor: Rect) {
+        // SAFETY: see `Encoder`; the rectangle lies in the pass's area.
+        unsafe { self.device.raw().cmd_set_scissor(self.commands, 0, &[scissor.raw()]) }
     }
 
     /// Draws with the pipeline that is bound.
@@ -120,14 +131,11 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    /// Sets buffers, where they differ from those of the call before, and push constants.
+    /// Sets buffers and images, where they differ from those of the call before, and push constants.
     fn bind_resources(&self, call: &Call<'_>) {
         let layout = call.pipeline.layout.raw.raw;
         if let Some(descriptors) = call.descriptors.as_deref().filter(|descriptors| !descriptors.is_empty()) {
-            let infos: Vec<[vk::DescriptorBufferInfo; 1]> = descriptors
-                .iter()
-                .map(|one| [vk::DescriptorBufferInfo { buffer: one.buffer, offset: one.offset, range: one.range }])
-                .collect();
+            let infos: Vec<DescriptorInfo> = descriptors.iter().map(|one| DescriptorInfo::new(one.content)).collect();
             let writes: Vec<_> =
                 descriptors.iter().zip(&infos).map(|(one, info)| descriptor_write(one, info)).collect();
             let functions = &self.device.shared.push_descriptor;
@@ -143,23 +151,22 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    fn begin_rendering(&self, size: [u32; 2], color: Option<&ColorTarget>, depth: Option<&DepthTarget>) {
-        let [width, height] = size;
-        let area = vk::Rect2D { offset: vk::Offset2D::default(), extent: vk::Extent2D { width, height } };
+    fn begin_rendering(&self, viewport: Rect, area: Rect, color: Option<&ColorTarget>, depth: Option<&DepthTarget>) {
         let colors: Vec<_> = color.map(color_attachment).into_iter().collect();
         let depth = depth.map(depth_attachment);
-        let mut info = vk::RenderingInfo::default().render_area(area).layer_count(1).color_attachments(&colors);
+        let mut info = vk::RenderingInfo::default().render_area(area.raw()).layer_count(1).color_attachments(&colors);
         if let Some(depth) = &depth {
             info = info.depth_attachment(depth);
         }
-        let viewport =
-            vk::Viewport { x: 0.0, y: 0.0, width: width as f32, height: height as f32, min_depth: 0.0, max_depth: 1.0 };
+        let ([x, y], [width, height]) = (viewport.origin, viewport.size);
+        let [x, y, width, height] = [x, y, width, height].map(|one| one as f32);
+        let viewport = vk::Viewport { x, y, width, height, min_depth: 0.0, max_depth: 1.0 };
         let raw = self.device.raw();
         // SAFETY: see `Encoder`; the attachments live across the call and their images are in the named layouts.
         unsafe {
             raw.cmd_begin_rendering(self.commands, &info);
             raw.cmd_set_viewport(self.commands, 0, &[viewport]);
-            raw.cmd_set_scissor(self.commands, 0, &[area]);
+            raw.cmd_set_scissor(self.commands, 0, &[area.raw()]);
         }
     }
 
@@ -181,7 +188,7 @@ impl<'a> Encoder<'a> {
             if part > 0 {
                 self.barrier(&vk::DependencyInfo::default().memory_barriers(&[capture_pause()]));
             }
-            self.begin_rendering([1, 1], None, None);
+            self.begin_rendering([1, 1].into(), [1, 1].into(), None, None);
             self.bind_pipeline(&run[0].call);
             self.begin_capture(feedback.fp(), pass, size, counter.filter(|_| part > 0));
             run.iter().for_each(|draw| self.draw(draw));
@@ -222,21 +229,58 @@ impl<'a> Encoder<'a> {
         unsafe { self.device.raw().cmd_copy_buffer2(self.commands, &info) }
     }
 
-    fn copy_image(&self, image: &Image, buffer: vk::Buffer) {
-        let [width, height] = image.size();
-        let layers = vk::ImageSubresourceLayers::default().aspect_mask(image.format().aspect()).layer_count(1);
-        let regions = [vk::BufferImageCopy2::default().image_subresource(layers).image_extent(vk::Extent3D {
-            width,
-            height,
-            depth: 1,
-        })];
+    fn copy_from_image(&self, source: &ImageRegion, buffer: vk::Buffer, offset: u64) {
+        let regions = [source.raw(offset)];
         let info = vk::CopyImageToBufferInfo2::default()
-            .src_image(image.raw())
+            .src_image(source.image.raw())
             .src_image_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL)
             .dst_buffer(buffer)
             .regions(&regions);
-        // SAFETY: see `Encoder`; the buffer takes the whole image, which is in the named layout.
+        // SAFETY: see `Encoder`; the buffer takes all texels of the image, which is in the named layout.
         unsafe { self.device.raw().cmd_copy_image_to_buffer2(self.commands, &info) }
+    }
+
+    fn copy_to_image(&self, buffer: vk::Buffer, offset: u64, target: &ImageRegion) {
+        let regions = [target.raw(offset)];
+        let info = vk::CopyBufferToImageInfo2::default()
+            .src_buffer(buffer)
+            .dst_image(target.image.raw())
+            .dst_image_layout(vk::ImageLayout::TRANSFER_DST_OPTIMAL)
+            .regions(&regions);
+        // SAFETY: see `Encoder`; the buffer has all texels, the image has room for them and is in the named layout.
+        unsafe { self.device.raw().cmd_copy_buffer_to_image2(self.commands, &info) }
+    }
+
+    /// Halves each level into the next. All levels are in the layout of a source; each changes to that of a target and back.
+    fn fill_levels(&self, image: &Image) {
+        for level in 1..image.levels() {
+            self.barrier(&vk::DependencyInfo::default().image_memory_barriers(&[level_becomes_target(image, level)]));
+            self.halve(image, level);
+            self.barrier(&vk::DependencyInfo::default().image_memory_barriers(&[level_becomes_source(image, level)]));
+        }
+    }
+
+    /// Fills a level from the one before.
+    fn halve(&self, image: &Image, level: u32) {
+        let corners = |level| {
+            let [width, height] = image.level_size(level);
+            // Sizes of images are far below 2^31.
+            [vk::Offset3D::default(), vk::Offset3D { x: width as i32, y: height as i32, z: 1 }]
+        };
+        let regions = [vk::ImageBlit2::default()
+            .src_subresource(layers(image.format(), level - 1))
+            .src_offsets(corners(level - 1))
+            .dst_subresource(layers(image.format(), level))
+            .dst_offsets(corners(level))];
+        let info = vk::BlitImageInfo2::default()
+            .src_image(image.raw())
+            .src_image_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL)
+            .dst_image(image.raw())
+            .dst_image_layout(vk::ImageLayout::TRANSFER_DST_OPTIMAL)
+            .regions(&regions)
+            .filter(vk::Filter::LINEAR);
+        // SAFETY: see `Encoder`; the two levels exist and are in the named layouts, and the format can be filtered.
+        unsafe { self.device.raw().cmd_blit_image2(self.commands, &info) }
     }
 
     /// Writes barriers alone.
@@ -257,7 +301,7 @@ impl<'a> Encoder<'a> {
                     .new_layout(one.to)
                     .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
                     .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED);
-                Some(barrier.image(image.raw()).subresource_range(whole(image.format())))
+                Some(barrier.image(image.raw()).subresource_range(image.range()))
             })
             .collect();
         if !memory.is_empty() || !images.is_empty() {
@@ -336,9 +380,58 @@ fn counter_array(counter: Option<&vk::Buffer>) -> (u32, *const vk::Buffer) {
     counter.map_or((0, std::ptr::null()), |counter| (1, std::ptr::from_ref(counter)))
 }
 
-fn descriptor_write<'i>(one: &Descriptor, info: &'i [vk::DescriptorBufferInfo; 1]) -> vk::WriteDescriptorSet<'i> {
-    let write = vk::WriteDescriptorSet::default().dst_binding(one.binding);
-    write.descriptor_type(descriptor_type(one.kind)).buffer_info(info)
+/// What a descriptor write points to: one of the two is meant, by the kind of the descriptor.
+#[derive(Default)]
+struct DescriptorInfo {
+    buffer: [vk::DescriptorBufferInfo; 1],
+    image: [vk::DescriptorImageInfo; 1],
+}
+
+impl DescriptorInfo {
+    fn new(content: Content) -> Self {
+        match content {
+            Content::Buffer { buffer, offset, range } => {
+                Self { buffer: [vk::DescriptorBufferInfo { buffer, offset, range }], ..Self::default() }
+            }
+            Content::Image { view, sampler, layout } => {
+                let image = vk::DescriptorImageInfo { image_view: view, sampler, image_layout: layout };
+                Self { image: [image], ..Self::default() }
+            }
+        }
+    }
+}
+
+fn descriptor_write<'i>(one: &Descriptor, info: &'i DescriptorInfo) -> vk::WriteDescriptorSet<'i> {
+    let write = vk::WriteDescriptorSet::default().dst_binding(one.binding).descriptor_type(descriptor_type(one.kind));
+    match one.content {
+        Content::Buffer { .. } => write.buffer_info(&info.buffer),
+        Content::Image { .. } => write.image_info(&info.image),
+    }
+}
+
+/// One level goes from source to target; what is in it does not matter.
+fn level_becomes_target(image: &Image, level: u32) -> vk::ImageMemoryBarrier2<'static> {
+    let (from, to) = (vk::ImageLayout::UNDEFINED, vk::ImageLayout::TRANSFER_DST_OPTIMAL);
+    let blit = vk::PipelineStageFlags2::BLIT;
+    vk::ImageMemoryBarrier2::default()
+        .src_stage_mask(blit)
+        .dst_stage_mask(blit)
+        .dst_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+        .old_layout(from)
+        .new_layout(to)
+        .src_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+        .dst_queue_family_index(vk::QUEUE_FAMILY_IGNORED)
+        .image(image.raw())
+        .subresource_range(range(image.format(), level..level + 1))
+}
+
+/// One level goes from target, filled, to source.
+fn level_becomes_source(image: &Image, level: u32) -> vk::ImageMemoryBarrier2<'static> {
+    level_becomes_target(image, level)
+        .src_access_mask(vk::AccessFlags2::TRANSFER_WRITE)
+        .dst_access_mask(vk::AccessFlags2::TRANSFER_READ)
+        .old_layout(vk::ImageLayout::TRANSFER_DST_OPTIMAL)
+        .new_layout(vk::ImageLayout::TRANSFER_SRC_OPTIMAL)
 }
 
 fn memory_barrier(source: Scope, destination: Scope) -> vk::MemoryBarrier2<'static> {

@@ -2,6 +2,17 @@
 
 use ash::vk;
 
+/// The numbers that shaders read from texels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Numbers {
+    /// Floats, also where texels hold normalized integers or depths: `sampler2D` in GLSL.
+    Float,
+    /// Unsigned integers: `usampler2D` in GLSL.
+    Uint,
+    /// Signed integers: `isampler2D` in GLSL; no format here has them.
+    Int,
+}
+
 /// The format of an image's texels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -18,6 +29,12 @@ pub enum Format {
     Rgba16Float,
     /// Four floats.
     Rgba32Float,
+    /// One byte, linear.
+    R8Unorm,
+    /// One number of 16 bits, linear, from 0 to 1.
+    R16Unorm,
+    /// One half float.
+    R16Float,
     /// One float.
     R32Float,
     /// One unsigned integer.
@@ -32,6 +49,8 @@ impl Format {
         match self {
             Self::Rgba32Float => 16,
             Self::Rgba16Float => 8,
+            Self::R16Unorm | Self::R16Float => 2,
+            Self::R8Unorm => 1,
             _ => 4,
         }
     }
@@ -39,6 +58,11 @@ impl Format {
     /// Whether texels are depths.
     pub fn is_depth(self) -> bool {
         self == Self::Depth32Float
+    }
+
+    /// What shaders see when they read texels.
+    pub fn numbers(self) -> Numbers {
+        if self == Self::R32Uint { Numbers::Uint } else { Numbers::Float }
     }
 
     pub(crate) fn raw(self) -> vk::Format {
@@ -49,6 +73,9 @@ impl Format {
             Self::Bgra8Srgb => vk::Format::B8G8R8A8_SRGB,
             Self::Rgba16Float => vk::Format::R16G16B16A16_SFLOAT,
             Self::Rgba32Float => vk::Format::R32G32B32A32_SFLOAT,
+            Self::R8Unorm => vk::Format::R8_UNORM,
+            Self::R16Unorm => vk::Format::R16_UNORM,
+            Self::R16Float => vk::Format::R16_SFLOAT,
             Self::R32Float => vk::Format::R32_SFLOAT,
             Self::R32Uint => vk::Format::R32_UINT,
             Self::Depth32Float => vk::Format::D32_SFLOAT,

@@ -1,4 +1,4 @@
-//! Images: colour and depth targets.
+//! Images: targets, textures, storage images.
 
 use std::sync::{
     Arc,
@@ -8,20 +8,26 @@ use std::sync::{
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
-use crate::{Device, Format, GpuError, format::sample_flag, memory::Block, owned::Owned, resource::ResourceId};
+use crate::{Device, Format, GpuError, Rect, format::sample_flag, memory::Block, owned::Owned, resource::ResourceId};
 
 bitflags::bitflags! {
-    /// What an image is for.
+    /// What an image is for. Something must fill it, and more than copies must use it.
     #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
     pub struct ImageUsage: u32 {
-        /// Colour or depth target of a render pass, by its format; every image needs this.
+        /// Colour or depth target of a render pass, by its format.
         const TARGET = 1;
-        /// Copied to buffers; one sample only.
+        /// Copied to buffers, and from level to level; one sample only.
         const COPY_SRC = 2;
+        /// Copied to from buffers, and from level to level; one sample only.
+        const COPY_DST = 4;
+        /// Looked up by shaders with a [`Sampler`](crate::Sampler); one sample only.
+        const SAMPLED = 8;
+        /// Read and written texel by texel by shaders, `image2D` in GLSL; one sample only.
+        const STORAGE = 16;
     }
 }
 
-/// How to make an image.
+/// How to make an image; the default has one sample and one level, and neither size nor usage.
 #[derive(Clone, Copy, Debug)]
 pub struct ImageDesc<'a> {
     /// Name for tools and messages.
@@ -32,44 +38,98 @@ pub struct ImageDesc<'a> {
     pub format: Format,
     /// Samples per texel: 1, 2, 4, ..; see [`Limits::sample_counts`](crate::Limits::sample_counts).
     pub samples: u32,
+    /// Levels, each half as wide and high as the one before, from 1 to [`Image::full_levels`].
+    pub levels: u32,
     /// What it is for.
     pub usage: ImageUsage,
 }
 
-/// A two-dimensional image with one level. Clones share it.
+impl Default for ImageDesc<'_> {
+    fn default() -> Self {
+        let usage = ImageUsage::empty();
+        Self { name: "image", size: [0, 0], format: Format::Rgba8Unorm, samples: 1, levels: 1, usage }
+    }
+}
+
+/// A two-dimensional image. Targets and storage images are its level 0; sampling sees all levels. Clones share it.
 #[derive(Clone)]
 pub struct Image {
     inner: Arc<Inner>,
 }
 
-/// Field order is destruction order: the view before its image, the image before its memory.
+/// Field order is destruction order: views before their image.
 struct Inner {
+    /// Level 0.
     view: Owned<vk::ImageView>,
-    raw: Owned<vk::Image>,
-    _block: Block,
+    /// All levels, if there are several.
+    levels_view: Option<Owned<vk::ImageView>>,
+    texels: Texels,
     id: ResourceId,
     name: String,
     size: [u32; 2],
     format: Format,
     samples: u32,
+    levels: u32,
     usage: ImageUsage,
+    /// What the device can do with images of the format.
+    features: vk::FormatFeatureFlags,
     /// Layout after the latest submission. Changes only while the queue is locked.
     layout: AtomicI32,
     device: Device,
 }
 
+/// An image and its memory, in order of destruction.
+struct Texels {
+    raw: Owned<vk::Image>,
+    _block: Block,
+}
+
+/// A rectangle of texels of one level of an image, for copies.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ImageRegion {
+    /// The image.
+    pub image: Image,
+    /// The level.
+    pub level: u32,
+    /// Which texels of the level.
+    pub rect: Rect,
+}
+
 impl Device {
-    /// Makes an image. What is in it is undefined until a pass clears or draws it.
+    /// Makes an image. What is in it is undefined until a pass fills it.
     pub fn image(&self, desc: &ImageDesc<'_>) -> Result<Image, GpuError> {
-        let flag = self.check_image(desc)?;
+        let samples = self.check_image(desc)?;
+        let texels = self.texels(desc, samples)?;
+        let raw = texels.raw.raw;
+        let several = desc.levels > 1;
+        let inner = Inner {
+            view: self.view(raw, desc, 1)?,
+            levels_view: if several { Some(self.view(raw, desc, desc.levels)?) } else { None },
+            texels,
+            id: ResourceId::new(),
+            name: desc.name.to_owned(),
+            size: desc.size,
+            format: desc.format,
+            samples: desc.samples,
+            levels: desc.levels,
+            usage: desc.usage,
+            features: self.format_features(desc.format),
+            layout: AtomicI32::new(vk::ImageLayout::UNDEFINED.as_raw()),
+            device: self.clone(),
+        };
+        Ok(Image { inner: Arc::new(inner) })
+    }
+
+    /// Creates the image itself, in memory of its own.
+    fn texels(&self, desc: &ImageDesc<'_>, samples: vk::SampleCountFlags) -> Result<Texels, GpuError> {
         let [width, height] = desc.size;
         let info = vk::ImageCreateInfo::default()
             .image_type(vk::ImageType::TYPE_2D)
             .format(desc.format.raw())
             .extent(vk::Extent3D { width, height, depth: 1 })
-            .mip_levels(1)
+            .mip_levels(desc.levels)
             .array_layers(1)
-            .samples(flag)
+            .samples(samples)
             .tiling(vk::ImageTiling::OPTIMAL)
             .usage(usage_flags(desc));
         // SAFETY: `check_image` asked the device whether it takes such an image.
@@ -81,52 +141,34 @@ impl Device {
         let block = self.shared.memory.allocate(desc.name, requirements, MemoryLocation::GpuOnly, false)?;
         let (memory, offset) = block.place();
         // SAFETY: image and memory are of this device, the memory meets the image's requirements and outlives it, since
-        // `Inner` drops it later.
+        // `Texels` drops it later.
         unsafe { self.raw().bind_image_memory(raw.raw, memory, offset) }
             .map_err(|result| GpuError::from_vulkan(format!("binding memory to image {:?}", desc.name), result))?;
-        let view = self.view(raw.raw, desc)?;
-        let inner = Inner {
-            view,
-            raw,
-            _block: block,
-            id: ResourceId::new(),
-            name: desc.name.to_owned(),
-            size: desc.size,
-            format: desc.format,
-            samples: desc.samples,
-            usage: desc.usage,
-            layout: AtomicI32::new(vk::ImageLayout::UNDEFINED.as_raw()),
-            device: self.clone(),
-        };
-        Ok(Image { inner: Arc::new(inner) })
+        Ok(Texels { raw, _block: block })
     }
 
     /// Whether the device takes such an image; the flag for its samples.
     fn check_image(&self, desc: &ImageDesc<'_>) -> Result<vk::SampleCountFlags, GpuError> {
-        let refuse = |reason: String| {
-            let what = if desc.format.is_depth() { "depth" } else { "colour" };
-            GpuError::ImageUsage { image: desc.name.to_owned(), what: what.to_owned(), reason }
-        };
+        let refuse =
+            |reason: String| GpuError::ImageUsage { image: desc.name.to_owned(), what: usage_text(desc.usage), reason };
         let flag = sample_flag(desc.samples).ok_or_else(|| refuse(format!("{} samples", desc.samples)))?;
+        let filled = ImageUsage::TARGET | ImageUsage::STORAGE | ImageUsage::COPY_DST;
+        if desc.size.contains(&0) || !desc.usage.intersects(filled) {
+            return Err(refuse("it has no texels, or nothing could fill it: it is no target".to_owned()));
+        }
+        if desc.usage.difference(ImageUsage::COPY_SRC | ImageUsage::COPY_DST).is_empty() {
+            return Err(refuse("it is only copied, which a buffer does as well".to_owned()));
+        }
+        if desc.samples > 1 && desc.usage != ImageUsage::TARGET {
+            return Err(refuse("an image of several samples is a target only: resolve it into another".to_owned()));
+        }
+        let full = Image::full_levels(desc.size);
+        if desc.levels == 0 || desc.levels > full || (desc.samples > 1 && desc.levels > 1) {
+            return Err(refuse(format!("{} levels, of at most {full}, and of 1 with several samples", desc.levels)));
+        }
+        let found = self.image_format_properties(desc);
+        let found = found.ok_or_else(|| refuse(format!("the device does not support {:?} for this", desc.format)))?;
         let [width, height] = desc.size;
-        if width == 0 || height == 0 || !desc.usage.contains(ImageUsage::TARGET) {
-            return Err(refuse("it has no texels, or is not a target, so that nothing could fill it".to_owned()));
-        }
-        if desc.samples > 1 && desc.usage.contains(ImageUsage::COPY_SRC) {
-            return Err(refuse("an image of several samples must be resolved before it is copied".to_owned()));
-        }
-        // SAFETY: plain parameters; the physical device is that of this device.
-        let found = unsafe {
-            self.shared.instance.raw.get_physical_device_image_format_properties(
-                self.shared.physical,
-                desc.format.raw(),
-                vk::ImageType::TYPE_2D,
-                vk::ImageTiling::OPTIMAL,
-                usage_flags(desc),
-                vk::ImageCreateFlags::empty(),
-            )
-        };
-        let found = found.map_err(|_| refuse(format!("the device does not support {:?} for this", desc.format)))?;
         if width > found.max_extent.width || height > found.max_extent.height {
             let limit = found.max_extent.width.min(found.max_extent.height).into();
             return Err(GpuError::Limit {
@@ -141,13 +183,36 @@ impl Device {
         Ok(flag)
     }
 
-    fn view(&self, raw: vk::Image, desc: &ImageDesc<'_>) -> Result<Owned<vk::ImageView>, GpuError> {
+    /// What the device says to such an image; `None` if it has none.
+    fn image_format_properties(&self, desc: &ImageDesc<'_>) -> Option<vk::ImageFormatProperties> {
+        // SAFETY: plain parameters; the physical device is that of this device.
+        let found = unsafe {
+            self.shared.instance.raw.get_physical_device_image_format_properties(
+                self.shared.physical,
+                desc.format.raw(),
+                vk::ImageType::TYPE_2D,
+                vk::ImageTiling::OPTIMAL,
+                usage_flags(desc),
+                vk::ImageCreateFlags::empty(),
+            )
+        };
+        found.ok()
+    }
+
+    fn format_features(&self, format: Format) -> vk::FormatFeatureFlags {
+        let (instance, physical) = (&self.shared.instance.raw, self.shared.physical);
+        // SAFETY: plain parameters; the physical device is that of this device.
+        unsafe { instance.get_physical_device_format_properties(physical, format.raw()) }.optimal_tiling_features
+    }
+
+    /// A view of the first levels of an image.
+    fn view(&self, raw: vk::Image, desc: &ImageDesc<'_>, levels: u32) -> Result<Owned<vk::ImageView>, GpuError> {
         let info = vk::ImageViewCreateInfo::default()
             .image(raw)
             .view_type(vk::ImageViewType::TYPE_2D)
             .format(desc.format.raw())
-            .subresource_range(whole(desc.format));
-        // SAFETY: the image is alive, bound to memory, and has this format.
+            .subresource_range(range(desc.format, 0..levels));
+        // SAFETY: the image is alive, bound to memory, and has this format and these levels.
         let view = unsafe { self.raw().create_image_view(&info, None) }
             .map_err(|result| GpuError::from_vulkan(format!("creating the view of image {:?}", desc.name), result))?;
         Ok(Owned::new(&self.shared.raw, view, desc.name))
@@ -155,14 +220,24 @@ impl Device {
 }
 
 impl Image {
+    /// Most levels of an image of this size: down to a single texel.
+    pub fn full_levels(size: [u32; 2]) -> u32 {
+        u32::BITS - size[0].max(size[1]).leading_zeros()
+    }
+
     /// The name it was made with.
     pub fn name(&self) -> &str {
         &self.inner.name
     }
 
-    /// Width and height in texels.
+    /// Width and height of level 0 in texels.
     pub fn size(&self) -> [u32; 2] {
         self.inner.size
+    }
+
+    /// Width and height of a level in texels.
+    pub fn level_size(&self, level: u32) -> [u32; 2] {
+        self.size().map(|one| one.checked_shr(level).unwrap_or(0).max(1))
     }
 
     /// Format of the texels.
@@ -175,23 +250,59 @@ impl Image {
         self.inner.samples
     }
 
+    /// Number of levels.
+    pub fn levels(&self) -> u32 {
+        self.inner.levels
+    }
+
     /// What it is for.
     pub fn usage(&self) -> ImageUsage {
         self.inner.usage
     }
 
-    /// Bytes of all texels, rows packed tightly, as copied to a buffer.
+    /// Bytes of all texels of level 0, rows packed tightly, as copied to a buffer.
     pub fn byte_size(&self) -> u64 {
-        let [width, height] = self.size();
-        u64::from(width) * u64::from(height) * self.format().bytes_per_texel()
+        self.level(0).byte_size()
+    }
+
+    /// All texels of a level.
+    pub fn level(&self, level: u32) -> ImageRegion {
+        self.region(level, self.level_size(level).into())
+    }
+
+    /// Some texels of a level.
+    pub fn region(&self, level: u32, rect: Rect) -> ImageRegion {
+        ImageRegion { image: self.clone(), level, rect }
     }
 
     pub(crate) fn raw(&self) -> vk::Image {
-        self.inner.raw.raw
+        self.inner.texels.raw.raw
     }
 
+    /// Level 0.
     pub(crate) fn view(&self) -> vk::ImageView {
         self.inner.view.raw
+    }
+
+    /// All levels.
+    pub(crate) fn levels_view(&self) -> vk::ImageView {
+        self.inner.levels_view.as_ref().unwrap_or(&self.inner.view).raw
+    }
+
+    /// All of the image.
+    pub(crate) fn range(&self) -> vk::ImageSubresourceRange {
+        range(self.format(), 0..self.levels())
+    }
+
+    /// Whether samplers may take means of its texels.
+    pub(crate) fn filters(&self) -> bool {
+        self.inner.features.contains(vk::FormatFeatureFlags::SAMPLED_IMAGE_FILTER_LINEAR)
+    }
+
+    /// Whether levels can be made of each other.
+    pub(crate) fn blits(&self) -> bool {
+        let both = vk::FormatFeatureFlags::BLIT_SRC | vk::FormatFeatureFlags::BLIT_DST;
+        self.inner.features.contains(both) && self.filters()
     }
 
     pub(crate) fn id(&self) -> ResourceId {
@@ -229,9 +340,46 @@ impl std::fmt::Debug for Image {
     }
 }
 
-/// All of an image of this format.
-pub(crate) fn whole(format: Format) -> vk::ImageSubresourceRange {
-    vk::ImageSubresourceRange::default().aspect_mask(format.aspect()).level_count(1).layer_count(1)
+impl ImageRegion {
+    /// Bytes of its texels, rows packed tightly, as copied to and from buffers.
+    pub fn byte_size(&self) -> u64 {
+        let [width, height] = self.rect.size.map(u64::from);
+        width.saturating_mul(height).saturating_mul(self.image.format().bytes_per_texel())
+    }
+
+    /// Whether the image has these texels.
+    pub(crate) fn exists(&self) -> bool {
+        self.level < self.image.levels() && self.rect.fits(self.image.level_size(self.level))
+    }
+
+    pub(crate) fn raw(&self, buffer_offset: u64) -> vk::BufferImageCopy2<'static> {
+        let (vk::Offset2D { x, y }, [width, height]) = (self.rect.raw().offset, self.rect.size);
+        vk::BufferImageCopy2::default()
+            .buffer_offset(buffer_offset)
+            .image_subresource(layers(self.image.format(), self.level))
+            .image_offset(vk::Offset3D { x, y, z: 0 })
+            .image_extent(vk::Extent3D { width, height, depth: 1 })
+    }
+}
+
+/// Some levels of an image of this format.
+pub(crate) fn range(format: Format, levels: std::ops::Range<u32>) -> vk::ImageSubresourceRange {
+    vk::ImageSubresourceRange::default()
+        .aspect_mask(format.aspect())
+        .base_mip_level(levels.start)
+        .level_count(levels.end - levels.start)
+        .layer_count(1)
+}
+
+/// One level of an image of this format.
+pub(crate) fn layers(format: Format, level: u32) -> vk::ImageSubresourceLayers {
+    vk::ImageSubresourceLayers::default().aspect_mask(format.aspect()).mip_level(level).layer_count(1)
+}
+
+/// What an image is for, in words.
+fn usage_text(usage: ImageUsage) -> String {
+    let names: Vec<&str> = usage.iter_names().map(|(name, _)| name).collect();
+    if names.is_empty() { "nothing".to_owned() } else { names.join(" and ") }
 }
 
 fn usage_flags(desc: &ImageDesc<'_>) -> vk::ImageUsageFlags {
@@ -240,7 +388,24 @@ fn usage_flags(desc: &ImageDesc<'_>) -> vk::ImageUsageFlags {
     } else {
         vk::ImageUsageFlags::COLOR_ATTACHMENT
     };
-    let table = [(ImageUsage::TARGET, target), (ImageUsage::COPY_SRC, vk::ImageUsageFlags::TRANSFER_SRC)];
+    let table = [
+        (ImageUsage::TARGET, target),
+        (ImageUsage::COPY_SRC, vk::ImageUsageFlags::TRANSFER_SRC),
+        (ImageUsage::COPY_DST, vk::ImageUsageFlags::TRANSFER_DST),
+        (ImageUsage::SAMPLED, vk::ImageUsageFlags::SAMPLED),
+        (ImageUsage::STORAGE, vk::ImageUsageFlags::STORAGE),
+    ];
     let chosen = table.into_iter().filter(|(one, _)| desc.usage.contains(*one));
     chosen.fold(vk::ImageUsageFlags::empty(), |flags, (_, flag)| flags | flag)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn levels_go_down_to_one_texel() {
+        let levels = [[1, 1], [2, 1], [3, 3], [4, 1], [1023, 5], [1024, 5]].map(Image::full_levels);
+        assert_eq!(levels, [1, 2, 2, 3, 10, 11]);
+    }
 }

@@ -88,17 +88,25 @@ pub struct Limits {
     pub max_memory_allocation: u64,
     /// Most bytes of push constants.
     pub max_push_constants: u32,
-    /// Most buffers that one pipeline binds.
+    /// Most buffers and images that one pipeline binds.
     pub max_push_descriptors: u32,
     /// Most storage buffers that one pipeline binds.
     pub max_pipeline_storage_buffers: u32,
     /// Most uniform buffers that one pipeline binds.
     pub max_pipeline_uniform_buffers: u32,
+    /// Most images with samplers that one pipeline binds.
+    pub max_pipeline_sampled_images: u32,
+    /// Most storage images that one pipeline binds.
+    pub max_pipeline_storage_images: u32,
     /// Most storage buffers that one stage of a pipeline uses.
     pub max_stage_storage_buffers: u32,
     /// Most uniform buffers that one stage of a pipeline uses.
     pub max_stage_uniform_buffers: u32,
-    /// Most buffers of both kinds that one stage of a pipeline uses; in the fragment stage the colour target counts too.
+    /// Most images with samplers that one stage of a pipeline uses.
+    pub max_stage_sampled_images: u32,
+    /// Most storage images that one stage of a pipeline uses.
+    pub max_stage_storage_images: u32,
+    /// Most buffers and images that one stage of a pipeline uses; in the fragment stage the colour target counts too.
     pub max_stage_resources: u32,
     /// Highest tessellation level.
     pub max_tessellation_level: u32,
@@ -118,6 +126,28 @@ pub struct Limits {
     pub max_capture_stride: u32,
     /// Nanoseconds per tick of GPU time; 0 if GPU time cannot be measured.
     pub timestamp_period: f32,
+}
+
+impl Limits {
+    /// How many storage buffers, uniform buffers, sampled images and storage images one pipeline binds.
+    pub(crate) fn pipeline(&self) -> [u32; 4] {
+        [
+            self.max_pipeline_storage_buffers,
+            self.max_pipeline_uniform_buffers,
+            self.max_pipeline_sampled_images,
+            self.max_pipeline_storage_images,
+        ]
+    }
+
+    /// How many of each one stage uses.
+    pub(crate) fn stage(&self) -> [u32; 4] {
+        [
+            self.max_stage_storage_buffers,
+            self.max_stage_uniform_buffers,
+            self.max_stage_sampled_images,
+            self.max_stage_storage_images,
+        ]
+    }
 }
 
 /// Optional features of a device.
@@ -346,8 +376,15 @@ fn core_limits(core: &vk::PhysicalDeviceLimits) -> Limits {
         max_push_constants: core.max_push_constants_size,
         max_pipeline_storage_buffers: core.max_descriptor_set_storage_buffers,
         max_pipeline_uniform_buffers: core.max_descriptor_set_uniform_buffers,
+        // An image with its sampler counts as both.
+        max_pipeline_sampled_images: core.max_descriptor_set_sampled_images.min(core.max_descriptor_set_samplers),
+        max_pipeline_storage_images: core.max_descriptor_set_storage_images,
         max_stage_storage_buffers: core.max_per_stage_descriptor_storage_buffers,
         max_stage_uniform_buffers: core.max_per_stage_descriptor_uniform_buffers,
+        max_stage_sampled_images: core
+            .max_per_stage_descriptor_sampled_images
+            .min(core.max_per_stage_descriptor_samplers),
+        max_stage_storage_images: core.max_per_stage_descriptor_storage_images,
         max_stage_resources: core.max_per_stage_resources,
         max_tessellation_level: core.max_tessellation_generation_level,
         max_patch_vertices: core.max_tessellation_patch_size,

@@ -4,15 +4,15 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use crate::{BufferKind, Device, GpuError, Limits, Reflection, Stage, owned::Owned};
+use crate::{Device, GpuError, Limits, Reflection, ResourceKind, Stage, owned::Owned};
 
-/// A buffer that some stages of a pipeline use.
+/// A buffer or image that some stages of a pipeline use.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct LayoutBinding {
     pub(crate) binding: u32,
-    pub(crate) kind: BufferKind,
+    pub(crate) kind: ResourceKind,
     pub(crate) stages: vk::ShaderStageFlags,
-    /// Pipeline stages that may read the buffer.
+    /// Pipeline stages that may read it.
     pub(crate) reads: vk::PipelineStageFlags2,
     /// Pipeline stages that may write it.
     pub(crate) writes: vk::PipelineStageFlags2,
@@ -20,6 +20,9 @@ pub(crate) struct LayoutBinding {
     pub(crate) shader: String,
     pub(crate) name: String,
 }
+
+/// Kinds of resources whose numbers are limited, in the order of [`Limits::pipeline`] and [`Limits::stage`].
+const KINDS: [&str; 4] = ["storage buffers", "uniform buffers", "sampled images", "storage images"];
 
 /// What a pipeline binds, ascending by binding, and the bytes of its push constants.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -43,32 +46,37 @@ impl Interface {
     /// All that is limited: what it is, how much of it the pipeline takes, and the limit. Chapter "Limits" of the Vulkan
     /// specification; descriptor sets are one here, so that its limits are the pipeline's.
     fn demands(&self, limits: &Limits) -> Vec<(String, u64, u32)> {
-        use BufferKind::{Storage, Uniform};
-        let count = |kind, stages| self.count(|one| one.kind == kind && one.stages.intersects(stages));
-        let all = vk::ShaderStageFlags::ALL;
+        let all = self.counts(vk::ShaderStageFlags::ALL);
         let mut demands = vec![
             ("bytes of push constants".to_owned(), u64::from(self.push_size), limits.max_push_constants),
-            ("buffers".to_owned(), self.count(|_| true), limits.max_push_descriptors),
-            ("storage buffers".to_owned(), count(Storage, all), limits.max_pipeline_storage_buffers),
-            ("uniform buffers".to_owned(), count(Uniform, all), limits.max_pipeline_uniform_buffers),
+            ("buffers and images".to_owned(), all.iter().sum(), limits.max_push_descriptors),
         ];
+        demands.extend(
+            KINDS.into_iter().zip(all).zip(limits.pipeline()).map(|((kind, n), limit)| (kind.to_owned(), n, limit)),
+        );
         for stage in Stage::ALL {
-            let flag = stage_flags(stage).0;
-            let (storage, uniform) = (count(Storage, flag), count(Uniform, flag));
+            let counts = self.counts(stage_flags(stage).0);
+            let one_kind = |((kind, n), limit)| (format!("{kind} in the {stage} stage"), n, limit);
+            demands.extend(KINDS.into_iter().zip(counts).zip(limits.stage()).map(one_kind));
             // Whether there is a colour target is not known here; one resource less harms nobody.
-            let target = u64::from(stage == Stage::Fragment);
-            let resources = storage + uniform + target;
-            demands.extend([
-                (format!("storage buffers in the {stage} stage"), storage, limits.max_stage_storage_buffers),
-                (format!("uniform buffers in the {stage} stage"), uniform, limits.max_stage_uniform_buffers),
-                (format!("resources in the {stage} stage"), resources, limits.max_stage_resources),
-            ]);
+            let resources = counts.iter().sum::<u64>() + u64::from(stage == Stage::Fragment);
+            demands.push((format!("resources in the {stage} stage"), resources, limits.max_stage_resources));
         }
         demands
     }
 
-    fn count(&self, which: impl Fn(&LayoutBinding) -> bool) -> u64 {
-        self.bindings.iter().filter(|one| which(one)).count() as u64
+    /// How many resources of each of [`KINDS`] these stages use.
+    fn counts(&self, stages: vk::ShaderStageFlags) -> [u64; 4] {
+        let position = |kind| match kind {
+            ResourceKind::StorageBuffer => 0,
+            ResourceKind::UniformBuffer => 1,
+            ResourceKind::Texture(_) => 2,
+            ResourceKind::StorageImage(_) => 3,
+        };
+        let mut counts = [0; 4];
+        let used = self.bindings.iter().filter(|one| one.stages.intersects(stages));
+        used.for_each(|one| counts[position(one.kind)] += 1);
+        counts
     }
 }
 
@@ -81,11 +89,11 @@ pub(crate) fn merge(pipeline: &str, shaders: &[(&str, &Reflection)]) -> Result<I
             interface.push_size = interface.push_size.max(reflection.push_constant_size);
             interface.push_stages |= flag;
         }
-        for buffer in &reflection.buffers {
-            let reads = if buffer.reads { stage } else { vk::PipelineStageFlags2::NONE };
-            let writes = if buffer.writes { stage } else { vk::PipelineStageFlags2::NONE };
-            match interface.bindings.iter_mut().find(|known| known.binding == buffer.binding) {
-                Some(known) if known.kind == buffer.kind => {
+        for resource in &reflection.resources {
+            let reads = if resource.reads { stage } else { vk::PipelineStageFlags2::NONE };
+            let writes = if resource.writes { stage } else { vk::PipelineStageFlags2::NONE };
+            match interface.bindings.iter_mut().find(|known| known.binding == resource.binding) {
+                Some(known) if known.kind == resource.kind => {
                     known.stages |= flag;
                     known.reads |= reads;
                     known.writes |= writes;
@@ -93,21 +101,21 @@ pub(crate) fn merge(pipeline: &str, shaders: &[(&str, &Reflection)]) -> Result<I
                 Some(known) => {
                     return Err(GpuError::BindingConflict {
                         pipeline: pipeline.to_owned(),
-                        binding: buffer.binding,
+                        binding: resource.binding,
                         first: known.shader.clone(),
-                        first_kind: known.kind.name(),
+                        first_kind: known.kind,
                         second: (*shader).to_owned(),
-                        second_kind: buffer.kind.name(),
+                        second_kind: resource.kind,
                     });
                 }
                 None => interface.bindings.push(LayoutBinding {
-                    binding: buffer.binding,
-                    kind: buffer.kind,
+                    binding: resource.binding,
+                    kind: resource.kind,
                     stages: flag,
                     reads,
                     writes,
                     shader: (*shader).to_owned(),
-                    name: buffer.name.clone(),
+                    name: resource.name.clone(),
                 }),
             }
         }
@@ -174,20 +182,22 @@ fn set_binding(binding: &LayoutBinding) -> vk::DescriptorSetLayoutBinding<'stati
         .stage_flags(binding.stages)
 }
 
-pub(crate) fn descriptor_type(kind: BufferKind) -> vk::DescriptorType {
+pub(crate) fn descriptor_type(kind: ResourceKind) -> vk::DescriptorType {
     match kind {
-        BufferKind::Storage => vk::DescriptorType::STORAGE_BUFFER,
-        BufferKind::Uniform => vk::DescriptorType::UNIFORM_BUFFER,
+        ResourceKind::StorageBuffer => vk::DescriptorType::STORAGE_BUFFER,
+        ResourceKind::UniformBuffer => vk::DescriptorType::UNIFORM_BUFFER,
+        ResourceKind::Texture(_) => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
+        ResourceKind::StorageImage(_) => vk::DescriptorType::STORAGE_IMAGE,
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::BufferBinding;
+    use crate::{Numbers, ResourceBinding};
 
-    fn shader(stage: Stage, push_constant_size: u32, buffers: &[(u32, BufferKind, bool, bool)]) -> Reflection {
-        let buffer = |&(binding, kind, reads, writes)| BufferBinding {
+    fn shader(stage: Stage, push_constant_size: u32, resources: &[(u32, ResourceKind, bool, bool)]) -> Reflection {
+        let resource = |&(binding, kind, reads, writes)| ResourceBinding {
             binding,
             kind,
             reads,
@@ -197,7 +207,7 @@ mod tests {
         Reflection {
             stage,
             entry_point: "main".to_owned(),
-            buffers: buffers.iter().map(buffer).collect(),
+            resources: resources.iter().map(resource).collect(),
             push_constant_size,
             specialization: Vec::new(),
             local_size: None,
@@ -208,9 +218,12 @@ mod tests {
 
     #[test]
     fn bindings_of_all_stages_are_united() {
-        let vertex = shader(Stage::Vertex, 16, &[(3, BufferKind::Storage, true, false)]);
-        let fragment =
-            shader(Stage::Fragment, 32, &[(0, BufferKind::Uniform, true, false), (3, BufferKind::Storage, true, true)]);
+        let vertex = shader(Stage::Vertex, 16, &[(3, ResourceKind::StorageBuffer, true, false)]);
+        let fragment = shader(
+            Stage::Fragment,
+            32,
+            &[(0, ResourceKind::UniformBuffer, true, false), (3, ResourceKind::StorageBuffer, true, true)],
+        );
         let interface = merge("p", &[("v", &vertex), ("f", &fragment)]).unwrap();
         assert_eq!(interface.bindings.iter().map(|one| one.binding).collect::<Vec<_>>(), [0, 3]);
         let shared = &interface.bindings[1];
@@ -230,11 +243,12 @@ mod tests {
 
     #[test]
     fn a_binding_of_two_kinds_is_refused_with_both_shaders() {
-        let vertex = shader(Stage::Vertex, 0, &[(1, BufferKind::Storage, true, false)]);
-        let fragment = shader(Stage::Fragment, 0, &[(1, BufferKind::Uniform, true, false)]);
+        let vertex = shader(Stage::Vertex, 0, &[(1, ResourceKind::StorageBuffer, true, false)]);
+        let fragment = shader(Stage::Fragment, 0, &[(1, ResourceKind::UniformBuffer, true, false)]);
         let error = merge("p", &[("v", &vertex), ("f", &fragment)]).unwrap_err().to_string();
         assert!(error.contains("\"v\"") && error.contains("\"f\"") && error.contains("binding 1"), "{error}");
     }
+
     /// Limits that nothing here exceeds.
     fn roomy() -> Limits {
         Limits {
@@ -242,26 +256,33 @@ mod tests {
             max_push_descriptors: 32,
             max_pipeline_storage_buffers: 32,
             max_pipeline_uniform_buffers: 32,
+            max_pipeline_sampled_images: 32,
+            max_pipeline_storage_images: 32,
             max_stage_storage_buffers: 32,
             max_stage_uniform_buffers: 32,
+            max_stage_sampled_images: 32,
+            max_stage_storage_images: 32,
             max_stage_resources: 32,
             ..Limits::default()
         }
     }
 
-    /// The vertex stage has 3 storage buffers and 1 uniform buffer, the fragment stage 2 and 2, of which they share one each:
-    /// with the colour target 5 resources in the fragment stage.
+    /// The vertex stage has 3 storage buffers and 1 uniform buffer, the fragment stage 2 and 2, of which they share one each, and
+    /// 2 textures and 1 storage image: with the colour target 8 resources in the fragment stage.
     #[test]
     fn every_limit_counts_and_is_named() {
-        use BufferKind::{Storage, Uniform};
+        use ResourceKind::{StorageBuffer as Storage, UniformBuffer as Uniform};
+        let (texture, image) =
+            (ResourceKind::Texture(Numbers::Float), ResourceKind::StorageImage(crate::Format::R32Float));
         let read = |(binding, kind)| (binding, kind, true, false);
         let vertex = shader(Stage::Vertex, 8, &[(0, Storage), (1, Storage), (2, Storage), (3, Uniform)].map(read));
-        let fragment = shader(Stage::Fragment, 16, &[(0, Storage), (4, Storage), (3, Uniform), (5, Uniform)].map(read));
+        let fragment = [(0, Storage), (4, Storage), (3, Uniform), (5, Uniform), (6, texture), (7, texture), (8, image)];
+        let fragment = shader(Stage::Fragment, 16, &fragment.map(read));
         let interface = merge("p", &[("v", &vertex), ("f", &fragment)]).unwrap();
         type Field = fn(&mut Limits) -> &mut u32;
-        let cases: [(&str, u32, Field); 7] = [
+        let cases: [(&str, u32, Field); 11] = [
             ("bytes of push constants of pipeline \"p\"", 16, |limits| &mut limits.max_push_constants),
-            ("buffers of pipeline \"p\"", 6, |limits| &mut limits.max_push_descriptors),
+            ("buffers and images of pipeline \"p\"", 9, |limits| &mut limits.max_push_descriptors),
             ("storage buffers of pipeline \"p\"", 4, |limits| &mut limits.max_pipeline_storage_buffers),
             ("uniform buffers of pipeline \"p\"", 2, |limits| &mut limits.max_pipeline_uniform_buffers),
             ("storage buffers in the vertex stage of pipeline \"p\"", 3, |limits| {
@@ -270,7 +291,15 @@ mod tests {
             ("uniform buffers in the fragment stage of pipeline \"p\"", 2, |limits| {
                 &mut limits.max_stage_uniform_buffers
             }),
-            ("resources in the fragment stage of pipeline \"p\"", 5, |limits| &mut limits.max_stage_resources),
+            ("sampled images of pipeline \"p\"", 2, |limits| &mut limits.max_pipeline_sampled_images),
+            ("storage images of pipeline \"p\"", 1, |limits| &mut limits.max_pipeline_storage_images),
+            ("sampled images in the fragment stage of pipeline \"p\"", 2, |limits| {
+                &mut limits.max_stage_sampled_images
+            }),
+            ("storage images in the fragment stage of pipeline \"p\"", 1, |limits| {
+                &mut limits.max_stage_storage_images
+            }),
+            ("resources in the fragment stage of pipeline \"p\"", 8, |limits| &mut limits.max_stage_resources),
         ];
         for (expected, used, field) in cases {
             let mut limits = roomy();

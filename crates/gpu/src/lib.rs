@@ -60,22 +60,25 @@ mod plan;
 mod prepared;
 mod query;
 mod recording;
+mod rect;
 mod reflect;
 mod resource;
+mod sampler;
 mod select;
 mod shader;
 mod submission;
+mod texture;
 
 pub use bindings::Bindings;
 pub use buffer::{Buffer, BufferDesc, BufferUsage, Memory};
 pub use device::{Device, DeviceDesc, devices};
 pub use error::{DeviceError, GpuError};
-pub use format::Format;
+pub use format::{Format, Numbers};
 pub use graphics::{
     Blend, Compare, Cull, DepthBias, DepthState, FrontFace, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode,
     Tessellation, Topology,
 };
-pub use image::{Image, ImageDesc, ImageUsage};
+pub use image::{Image, ImageDesc, ImageRegion, ImageUsage};
 pub use info::{DeviceInfo, DeviceKind, Features, Limits};
 pub use memory::MemoryUse;
 pub use messages::MessageLog;
@@ -85,6 +88,8 @@ pub use query::{PassStatistics, Report};
 pub use recording::{
     CapturePass, ColorTarget, ComputePass, DepthTarget, Draw, Measure, Recording, RenderPass, Vertices,
 };
-pub use reflect::{BufferBinding, BufferKind, Extent, ReflectError, Reflection, SpecConstant, Stage, reflect};
+pub use rect::Rect;
+pub use reflect::{Extent, ReflectError, Reflection, ResourceBinding, ResourceKind, SpecConstant, Stage, reflect};
+pub use sampler::{Filter, Sampler, SamplerDesc, Wrap};
 pub use shader::Shader;
 pub use submission::Submission;

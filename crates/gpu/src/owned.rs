@@ -73,6 +73,7 @@ destroy! {
     PipelineCache by destroy_pipeline_cache,
     PipelineLayout by destroy_pipeline_layout,
     QueryPool by destroy_query_pool,
+    Sampler by destroy_sampler,
     Semaphore by destroy_semaphore,
     ShaderModule by destroy_shader_module,
 }

@@ -1,6 +1,8 @@
 //! From a recording to steps that can be executed without further questions: everything that could be wrong with it is found
 //! here, and what each pass does with each resource is worked out.
 
+mod copies;
+mod descriptors;
 mod planner;
 
 use std::{collections::HashMap, ops::Range, sync::Arc};
@@ -8,8 +10,8 @@ use std::{collections::HashMap, ops::Range, sync::Arc};
 use ash::vk;
 
 use crate::{
-    Buffer, BufferKind, CapturePass, Device, GpuError, Image, Recording, RenderPass, Vertices, barrier::Uses,
-    pipeline::Pipeline, resource::ResourceId,
+    Buffer, CapturePass, Device, GpuError, Image, ImageRegion, Recording, Rect, RenderPass, ResourceKind, Sampler,
+    Vertices, barrier::Uses, pipeline::Pipeline, resource::ResourceId,
 };
 use planner::Planner;
 
@@ -26,6 +28,15 @@ pub(crate) struct Kept {
     pub(crate) buffers: HashMap<ResourceId, Buffer>,
     pub(crate) images: HashMap<ResourceId, Image>,
     pipelines: Vec<Arc<Pipeline>>,
+    samplers: Vec<Sampler>,
+}
+
+impl Kept {
+    fn keep_sampler(&mut self, sampler: &Sampler) {
+        if !self.samplers.contains(sampler) {
+            self.samplers.push(sampler.clone());
+        }
+    }
 }
 
 /// A pass, resolved.
@@ -38,10 +49,12 @@ pub(crate) struct Step<'a> {
 /// What a step does.
 pub(crate) enum Work<'a> {
     Dispatch { call: Call<'a>, groups: [u32; 3] },
-    Render { pass: &'a RenderPass, draws: Vec<DrawCall<'a>> },
+    Render { pass: &'a RenderPass, area: Rect, draws: Vec<DrawCall<'a>> },
     Capture { pass: &'a CapturePass, size: u64, draws: Vec<DrawCall<'a>>, counter: Option<vk::Buffer> },
     CopyBuffer { source: vk::Buffer, target: vk::Buffer, region: vk::BufferCopy2<'static> },
-    CopyImage { image: &'a Image, buffer: vk::Buffer },
+    CopyFromImage { source: &'a ImageRegion, buffer: vk::Buffer, offset: u64 },
+    CopyToImage { buffer: vk::Buffer, offset: u64, target: &'a ImageRegion },
+    FillLevels { image: &'a Image },
 }
 
 /// A pipeline with what is bound to it.
@@ -57,6 +70,7 @@ pub(crate) struct DrawCall<'a> {
     pub(crate) call: Call<'a>,
     pub(crate) vertices: &'a Vertices,
     pub(crate) instances: Range<u32>,
+    pub(crate) scissor: Option<Rect>,
 }
 
 /// Draws, cut where the pipeline changes.
@@ -64,14 +78,19 @@ pub(crate) fn runs<'d, 'a>(draws: &'d [DrawCall<'a>]) -> impl Iterator<Item = &'
     draws.chunk_by(|one, next| std::ptr::eq(one.call.pipeline, next.call.pipeline))
 }
 
-/// A buffer at a binding number.
+/// A buffer or image at a binding number.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Descriptor {
     pub(crate) binding: u32,
-    pub(crate) kind: BufferKind,
-    pub(crate) buffer: vk::Buffer,
-    pub(crate) offset: u64,
-    pub(crate) range: u64,
+    pub(crate) kind: ResourceKind,
+    pub(crate) content: Content,
+}
+
+/// What a descriptor describes.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Content {
+    Buffer { buffer: vk::Buffer, offset: u64, range: u64 },
+    Image { view: vk::ImageView, sampler: vk::Sampler, layout: vk::ImageLayout },
 }
 
 impl<'a> Plan<'a> {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use crate::{Bindings, Buffer, ComputePipeline, GraphicsPipeline, Image};
+use crate::{Bindings, Buffer, ComputePipeline, GraphicsPipeline, Image, ImageRegion, Rect};
 
 /// A dispatch of a compute pipeline.
 #[derive(Clone, Debug)]
@@ -11,7 +11,7 @@ pub struct ComputePass {
     pub name: String,
     /// What runs.
     pub pipeline: ComputePipeline,
-    /// The buffers it runs on.
+    /// The buffers and images it runs on.
     pub bindings: Bindings,
     /// Push constants: exactly as many bytes as the shader declares.
     pub push: Vec<u8>,
@@ -44,7 +44,7 @@ impl From<Range<u32>> for Vertices {
 pub struct Draw {
     /// What draws.
     pub pipeline: GraphicsPipeline,
-    /// The buffers it draws from.
+    /// The buffers and images it draws from.
     pub bindings: Bindings,
     /// Push constants: exactly as many bytes as the shaders declare.
     pub push: Vec<u8>,
@@ -52,6 +52,8 @@ pub struct Draw {
     pub vertices: Vertices,
     /// Which instances, values of `gl_InstanceIndex`; usually `0..1`.
     pub instances: Range<u32>,
+    /// Texels of the targets that it may touch; `None` for all of the pass's area. May reach beyond the area.
+    pub scissor: Option<Rect>,
 }
 
 /// The colour target of a render pass.
@@ -77,7 +79,8 @@ pub struct DepthTarget {
 /// Draws into targets. The draws of one pass are not ordered against each other but for what they do to the targets: a draw
 /// that reads a buffer which another draw writes belongs in a later pass.
 ///
-/// The viewport covers `size` from the upper left texel, y pointing down, depth from 0 to 1.
+/// Clip space covers the viewport, y pointing down, depth from 0 to 1. Texels outside of the area keep what is in them, also
+/// where the targets are cleared: passes with other areas draw other parts of the same targets.
 #[derive(Clone, Debug)]
 pub struct RenderPass {
     /// Name for tools, messages and the report.
@@ -86,8 +89,11 @@ pub struct RenderPass {
     pub color: Option<ColorTarget>,
     /// Depth target.
     pub depth: Option<DepthTarget>,
-    /// Width and height of the viewport in texels; no larger than any target.
-    pub size: [u32; 2],
+    /// What clip space is mapped to, within every target: `size.into()` for all of a target.
+    pub viewport: Rect,
+    /// The texels that are cleared and drawn, within every target; `None` for those of the viewport. A part of the viewport
+    /// cuts the picture off without moving it.
+    pub area: Option<Rect>,
     /// What is drawn, in order.
     pub draws: Vec<Draw>,
 }
@@ -116,7 +122,9 @@ pub(crate) enum Pass {
     Render(RenderPass),
     Capture(CapturePass),
     CopyBuffer { source: Buffer, range: Range<u64>, target: Buffer, offset: u64 },
-    CopyImage { image: Image, buffer: Buffer },
+    CopyFromImage { source: ImageRegion, target: Buffer, offset: u64 },
+    CopyToImage { source: Buffer, offset: u64, target: ImageRegion },
+    FillLevels { image: Image },
 }
 
 impl Pass {
@@ -127,7 +135,9 @@ impl Pass {
             Self::Render(pass) => pass.name.clone(),
             Self::Capture(pass) => pass.name.clone(),
             Self::CopyBuffer { source, target, .. } => format!("copy {} to {}", source.name(), target.name()),
-            Self::CopyImage { image, buffer } => format!("copy {} to {}", image.name(), buffer.name()),
+            Self::CopyFromImage { source, target, .. } => format!("copy {} to {}", source.image.name(), target.name()),
+            Self::CopyToImage { source, target, .. } => format!("copy {} to {}", source.name(), target.image.name()),
+            Self::FillLevels { image } => format!("levels of {}", image.name()),
         }
     }
 }
@@ -180,9 +190,26 @@ impl Recording {
         self.passes.push(Pass::CopyBuffer { source: source.clone(), range, target: target.clone(), offset });
     }
 
-    /// Adds a copy of all texels of an image of one sample to the start of a buffer, rows from the top, tightly packed.
+    /// Adds a copy of all texels of level 0 to the start of a buffer, rows from the top, tightly packed.
     pub fn copy_image_to_buffer(&mut self, image: &Image, buffer: &Buffer) {
-        self.passes.push(Pass::CopyImage { image: image.clone(), buffer: buffer.clone() });
+        self.copy_region_to_buffer(image.level(0), buffer, 0);
+    }
+
+    /// Adds a copy of texels to a buffer from `offset` bytes on, a multiple of a texel's, rows from the top, tightly packed.
+    pub fn copy_region_to_buffer(&mut self, source: ImageRegion, target: &Buffer, offset: u64) {
+        self.passes.push(Pass::CopyFromImage { source, target: target.clone(), offset });
+    }
+
+    /// Adds a copy to texels from a buffer from `offset` bytes on, a multiple of a texel's, rows from the top, tightly packed.
+    pub fn copy_buffer_to_image(&mut self, source: &Buffer, offset: u64, target: ImageRegion) {
+        self.passes.push(Pass::CopyToImage { source: source.clone(), offset, target });
+    }
+
+    /// Fills every level but 0 of an image by halving the one before. The image was made with
+    /// [`ImageUsage::COPY_SRC`](crate::ImageUsage::COPY_SRC) and [`COPY_DST`](crate::ImageUsage::COPY_DST), and in a format
+    /// that can be filtered. sRGB is averaged as light.
+    pub fn fill_levels(&mut self, image: &Image) {
+        self.passes.push(Pass::FillLevels { image: image.clone() });
     }
 
     /// One recording for each pass, in order: for timing passes one by one where the times within a submission do not separate them.

@@ -2,7 +2,10 @@
 //!
 //! Layouts and barriers come from here, so they cannot disagree with the shaders. Terms are those of the SPIR-V specification.
 
+mod image;
 mod reader;
+
+use crate::{Format, Numbers};
 
 /// A stage of a pipeline.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -37,38 +40,53 @@ impl std::fmt::Display for Stage {
     }
 }
 
-/// How a shader sees a buffer.
+/// How a shader sees a buffer or an image.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum BufferKind {
+#[non_exhaustive]
+pub enum ResourceKind {
     /// `buffer` in GLSL.
-    Storage,
-    /// `uniform` in GLSL.
-    Uniform,
+    StorageBuffer,
+    /// `uniform` block in GLSL.
+    UniformBuffer,
+    /// An image with a sampler, `sampler2D` in GLSL, by what a look-up gives.
+    Texture(Numbers),
+    /// `image2D` in GLSL, by the format in its layout.
+    StorageImage(Format),
 }
 
-impl BufferKind {
-    /// The kind in one word.
-    pub fn name(self) -> &'static str {
+impl ResourceKind {
+    /// Whether it is a buffer.
+    pub fn is_buffer(self) -> bool {
+        matches!(self, Self::StorageBuffer | Self::UniformBuffer)
+    }
+}
+
+impl std::fmt::Display for ResourceKind {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Storage => "storage",
-            Self::Uniform => "uniform",
+            Self::StorageBuffer => f.write_str("storage buffer"),
+            Self::UniformBuffer => f.write_str("uniform buffer"),
+            Self::Texture(Numbers::Float) => f.write_str("sampler2D"),
+            Self::Texture(Numbers::Uint) => f.write_str("usampler2D"),
+            Self::Texture(Numbers::Int) => f.write_str("isampler2D"),
+            Self::StorageImage(format) => write!(f, "storage image of {format:?}"),
         }
     }
 }
 
-/// A buffer of descriptor set 0 that the shader uses.
+/// A buffer or image of descriptor set 0 that the shader uses.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub struct BufferBinding {
+pub struct ResourceBinding {
     /// Binding number.
     pub binding: u32,
-    /// Storage or uniform.
-    pub kind: BufferKind,
+    /// What it is.
+    pub kind: ResourceKind,
     /// The shader may read it: it is not `writeonly`.
     pub reads: bool,
     /// The shader may write it: it is not `readonly`. Compute only.
     pub writes: bool,
-    /// Name of the block.
+    /// Name of the block, or of the image.
     pub name: String,
 }
 
@@ -118,8 +136,8 @@ pub struct Reflection {
     pub stage: Stage,
     /// Name of the entry point.
     pub entry_point: String,
-    /// The buffers that its code refers to, ascending by binding; declared but unused ones are left out.
-    pub buffers: Vec<BufferBinding>,
+    /// The buffers and images that its code refers to, ascending by binding; declared but unused ones are left out.
+    pub resources: Vec<ResourceBinding>,
     /// Bytes of push constants, a multiple of 4; 0 if there are none.
     pub push_constant_size: u32,
     /// Specialization constants, ascending by id.
@@ -160,10 +178,10 @@ pub enum ReflectError {
         /// The capability, in SPIR-V's words.
         capability: String,
     },
-    /// A graphics stage may write a buffer.
+    /// A graphics stage may write a buffer or an image.
     #[error("{name:?} can be written, which only compute shaders may do: declare it readonly in this {stage} shader")]
     Write {
-        /// Name of the buffer.
+        /// Name of the buffer or image.
         name: String,
         /// The stage.
         stage: Stage,
@@ -176,8 +194,8 @@ pub enum ReflectError {
         /// Its set.
         set: u32,
     },
-    /// A resource is not a plain buffer.
-    #[error("{name:?} is {found}, only storage and uniform buffers are supported")]
+    /// A resource is of a kind that is not supported.
+    #[error("{name:?} is {found}, only single buffers, sampler2D and image2D are supported")]
     Resource {
         /// Name of the resource.
         name: String,

@@ -104,6 +104,8 @@ pub enum Blend {
     Replace,
     /// They are laid over them by their alpha, which is not yet multiplied in.
     Alpha,
+    /// They are laid over them by their alpha, which is multiplied in already.
+    Premultiplied,
 }
 
 pub(super) fn topology(topology: Topology) -> vk::PrimitiveTopology {
@@ -161,15 +163,19 @@ pub(super) fn depth(state: Option<DepthState>) -> vk::PipelineDepthStencilStateC
 
 pub(super) fn blend(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
     let state = vk::PipelineColorBlendAttachmentState::default().color_write_mask(vk::ColorComponentFlags::RGBA);
-    match blend {
-        Blend::Replace => state,
-        Blend::Alpha => state
+    let over = |source| {
+        state
             .blend_enable(true)
-            .src_color_blend_factor(vk::BlendFactor::SRC_ALPHA)
+            .src_color_blend_factor(source)
             .dst_color_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
             .color_blend_op(vk::BlendOp::ADD)
             .src_alpha_blend_factor(vk::BlendFactor::ONE)
             .dst_alpha_blend_factor(vk::BlendFactor::ONE_MINUS_SRC_ALPHA)
-            .alpha_blend_op(vk::BlendOp::ADD),
+            .alpha_blend_op(vk::BlendOp::ADD)
+    };
+    match blend {
+        Blend::Replace => state,
+        Blend::Alpha => over(vk::BlendFactor::SRC_ALPHA),
+        Blend::Premultiplied => over(vk::BlendFactor::ONE),
     }
 }

@@ -5,17 +5,15 @@ use std::{ops::Range, sync::Arc};
 use ash::vk;
 
 use crate::{
-    Bindings, Buffer, BufferDesc, BufferKind, BufferUsage, CapturePass, ComputePass, Device, Draw, GpuError, Image,
-    ImageUsage, Memory, RenderPass, Vertices,
+    Bindings, Buffer, BufferDesc, BufferUsage, CapturePass, ComputePass, Device, Draw, GpuError, Image, ImageUsage,
+    Memory, Rect, RenderPass, Vertices,
     barrier::{Scope, Use, Uses},
-    bindings::Bound,
     graphics::Targets,
-    layout::LayoutBinding,
     pipeline::Pipeline,
     recording::Pass,
 };
 
-use super::{Call, Descriptor, DrawCall, Kept, Work, runs};
+use super::{Call, DrawCall, Kept, Work, runs};
 
 /// Resolves one pass.
 pub(super) struct Planner<'p> {
@@ -34,7 +32,9 @@ impl Planner<'_> {
             Pass::CopyBuffer { source, range, target, offset } => {
                 self.copy_buffer(source, range.clone(), target, *offset)
             }
-            Pass::CopyImage { image, buffer } => self.copy_image(image, buffer),
+            Pass::CopyFromImage { source, target, offset } => self.copy_from_image(source, target, *offset),
+            Pass::CopyToImage { source, offset, target } => self.copy_to_image(source, *offset, target),
+            Pass::FillLevels { image } => self.fill_levels(image),
         }
     }
 
@@ -52,6 +52,7 @@ impl Planner<'_> {
 
     fn render<'a>(&mut self, pass: &'a RenderPass) -> Result<Work<'a>, GpuError> {
         let targets = self.targets(pass)?;
+        let area = self.area(pass)?;
         let draws = self.draws(&pass.draws, |pipeline| Targets { discard: pipeline.discard, ..targets } == pipeline)?;
         let blends = pass.draws.iter().any(|draw| draw.pipeline.blends);
         if let Some(color) = &pass.color {
@@ -64,7 +65,7 @@ impl Planner<'_> {
         if let Some(depth) = &pass.depth {
             self.attach(&depth.image, depth.clear.is_some(), true)?;
         }
-        Ok(Work::Render { pass, draws })
+        Ok(Work::Render { pass, area, draws })
     }
 
     /// What the targets of a pass ask of its pipelines; fails unless they fit together.
@@ -75,17 +76,12 @@ impl Planner<'_> {
         let Some(first) = color.or(depth) else {
             return Err(self.refuse("it has neither a colour nor a depth target"));
         };
-        let all = || color.into_iter().chain(depth).chain(resolve);
         if color.is_some_and(|image| image.format().is_depth()) || depth.is_some_and(|image| !image.format().is_depth())
         {
             return Err(self.refuse("a depth image is its colour target, or the other way round"));
         }
         if color.into_iter().chain(depth).any(|image| image.samples() != first.samples()) {
             return Err(self.refuse("its targets differ in samples"));
-        }
-        if pass.size.contains(&0) || all().any(|image| image.size()[0] < pass.size[0] || image.size()[1] < pass.size[1])
-        {
-            return Err(self.refuse("its size is zero or larger than a target"));
         }
         let resolves = |color: &Image, resolve: &Image| {
             color.samples() > 1 && resolve.samples() == 1 && color.format() == resolve.format()
@@ -101,10 +97,23 @@ impl Planner<'_> {
         })
     }
 
+    /// The texels that a pass clears and draws.
+    fn area(&self, pass: &RenderPass) -> Result<Rect, GpuError> {
+        let area = pass.area.unwrap_or(pass.viewport);
+        let color = pass.color.iter().flat_map(|target| std::iter::once(&target.image).chain(&target.resolve));
+        let targets = || color.clone().chain(pass.depth.iter().map(|target| &target.image));
+        for (what, rect) in [("viewport", pass.viewport), ("area", area)] {
+            if rect.is_empty() || targets().any(|image| !rect.fits(image.size())) {
+                return Err(self.refuse(&format!("its {what} is empty or reaches beyond a target")));
+            }
+        }
+        Ok(area)
+    }
+
     /// Takes note of a target.
     fn attach(&mut self, image: &Image, cleared: bool, reads: bool) -> Result<(), GpuError> {
         use vk::{AccessFlags2 as Access, PipelineStageFlags2 as Stages};
-        if !cleared && image.layout() == vk::ImageLayout::UNDEFINED && !self.kept.images.contains_key(&image.id()) {
+        if !cleared && self.is_blank(image) {
             return Err(
                 self.refuse(&format!("it keeps what is in {:?}, but nothing was drawn there yet", image.name()))
             );
@@ -175,7 +184,8 @@ impl Planner<'_> {
             if let Vertices::Indexed { indices, range } = &draw.vertices {
                 self.index(indices, range.clone())?;
             }
-            calls.push(DrawCall { call, vertices: &draw.vertices, instances: draw.instances.clone() });
+            let (vertices, instances) = (&draw.vertices, draw.instances.clone());
+            calls.push(DrawCall { call, vertices, instances, scissor: draw.scissor });
         }
         Ok(calls)
     }
@@ -218,96 +228,12 @@ impl Planner<'_> {
         Ok(Call { pipeline, descriptors: Some(descriptors.collect::<Result<_, _>>()?), push })
     }
 
-    /// Resolves one binding of a pipeline and takes note of what the pipeline does with it.
-    fn descriptor(&mut self, binding: &LayoutBinding, bindings: &Bindings) -> Result<Descriptor, GpuError> {
-        let Some(bound) = bindings.get(binding.binding) else {
-            return Err(GpuError::MissingBinding {
-                pass: self.name.to_owned(),
-                shader: binding.shader.clone(),
-                binding: binding.binding,
-                name: binding.name.clone(),
-            });
-        };
-        let (usage, access) = match binding.kind {
-            BufferKind::Storage => (BufferUsage::STORAGE, vk::AccessFlags2::SHADER_STORAGE_READ),
-            BufferKind::Uniform => (BufferUsage::UNIFORM, vk::AccessFlags2::UNIFORM_READ),
-        };
-        bound.buffer.require(usage, &format!("binding {} of pass {:?}", binding.binding, self.name))?;
-        let (offset, range) = self.extent(binding, bound)?;
-        let read = Scope::new(binding.reads, access);
-        let write = Scope::new(binding.writes, vk::AccessFlags2::SHADER_STORAGE_WRITE);
-        self.touch_buffer(&bound.buffer, read, write)?;
-        Ok(Descriptor { binding: binding.binding, kind: binding.kind, buffer: bound.buffer.raw(), offset, range })
+    /// Whether nothing has filled the image yet.
+    pub(super) fn is_blank(&self, image: &Image) -> bool {
+        image.layout() == vk::ImageLayout::UNDEFINED && !self.kept.images.contains_key(&image.id())
     }
 
-    /// Offset and length of what is bound, checked against the buffer and the device.
-    fn extent(&self, binding: &LayoutBinding, bound: &Bound) -> Result<(u64, u64), GpuError> {
-        let limits = &self.device.info().limits;
-        let (limit, alignment) = match binding.kind {
-            BufferKind::Storage => (limits.max_storage_buffer_range, limits.storage_buffer_alignment),
-            BufferKind::Uniform => (limits.max_uniform_buffer_range, limits.uniform_buffer_alignment),
-        };
-        let (offset, range) = match bound.range.clone() {
-            None => (0, bound.buffer.real_size()),
-            Some(range) => {
-                bound.buffer.check(range.clone(), self.name)?;
-                (range.start, range.end - range.start)
-            }
-        };
-        if range == 0 || offset.checked_rem(alignment).unwrap_or(0) != 0 {
-            let number = binding.binding;
-            let reason =
-                format!("binding {number} is empty or starts at byte {offset}, not at a multiple of {alignment}");
-            return Err(self.refuse(&reason));
-        }
-        if range > limit {
-            let what = format!(
-                "bytes of buffer {:?} at binding {} of pass {:?}",
-                bound.buffer.name(),
-                binding.binding,
-                self.name
-            );
-            return Err(GpuError::Limit { what, value: range, limit });
-        }
-        Ok((offset, range))
-    }
-
-    fn copy_buffer(
-        &mut self,
-        source: &Buffer,
-        range: Range<u64>,
-        target: &Buffer,
-        offset: u64,
-    ) -> Result<Work<'static>, GpuError> {
-        source.check(range.clone(), self.name)?;
-        let size = range.end - range.start;
-        let end = offset.saturating_add(size);
-        target.check(offset..end, self.name)?;
-        if source == target && range.start < end && offset < range.end {
-            return Err(self.refuse("the copied range overlaps its target"));
-        }
-        let copy = vk::PipelineStageFlags2::COPY;
-        self.touch_buffer(source, Scope::new(copy, vk::AccessFlags2::TRANSFER_READ), Scope::default())?;
-        self.touch_buffer(target, Scope::default(), Scope::new(copy, vk::AccessFlags2::TRANSFER_WRITE))?;
-        let region = vk::BufferCopy2::default().src_offset(range.start).dst_offset(offset).size(size);
-        Ok(Work::CopyBuffer { source: source.raw(), target: target.raw(), region })
-    }
-
-    fn copy_image<'a>(&mut self, image: &'a Image, buffer: &Buffer) -> Result<Work<'a>, GpuError> {
-        buffer.check(0..image.byte_size(), self.name)?;
-        if image.layout() == vk::ImageLayout::UNDEFINED && !self.kept.images.contains_key(&image.id()) {
-            return Err(self.refuse("nothing was drawn into the image yet"));
-        }
-        let copy = vk::PipelineStageFlags2::COPY;
-        let (read, write) =
-            (Scope::new(copy, vk::AccessFlags2::TRANSFER_READ), Scope::new(copy, vk::AccessFlags2::TRANSFER_WRITE));
-        let layout = vk::ImageLayout::TRANSFER_SRC_OPTIMAL;
-        self.touch_image(image, ImageUsage::COPY_SRC, read, Scope::default(), layout)?;
-        self.touch_buffer(buffer, Scope::default(), write)?;
-        Ok(Work::CopyImage { image, buffer: buffer.raw() })
-    }
-
-    fn touch_buffer(&mut self, buffer: &Buffer, read: Scope, write: Scope) -> Result<(), GpuError> {
+    pub(super) fn touch_buffer(&mut self, buffer: &Buffer, read: Scope, write: Scope) -> Result<(), GpuError> {
         if !buffer.device().is(self.device) {
             return Err(self.foreign(buffer.name()));
         }
@@ -316,7 +242,8 @@ impl Planner<'_> {
         Ok(())
     }
 
-    fn touch_image(
+    /// Takes note of what the pass does with an image. Shaders may see one image several times, if in the same way.
+    pub(super) fn touch_image(
         &mut self,
         image: &Image,
         usage: ImageUsage,
@@ -331,7 +258,8 @@ impl Planner<'_> {
             let (image, what) = (image.name().to_owned(), self.name.to_owned());
             return Err(GpuError::ImageUsage { image, what, reason: format!("it was not made with usage {usage:?}") });
         }
-        if self.uses.contains(image.id()) {
+        let shared = [vk::ImageLayout::SHADER_READ_ONLY_OPTIMAL, vk::ImageLayout::GENERAL];
+        if self.uses.layout(image.id()).is_some_and(|known| known != layout || !shared.contains(&layout)) {
             return Err(self.refuse(&format!("it uses image {:?} in two roles", image.name())));
         }
         self.kept.images.entry(image.id()).or_insert_with(|| image.clone());
@@ -339,11 +267,11 @@ impl Planner<'_> {
         Ok(())
     }
 
-    fn foreign(&self, name: &str) -> GpuError {
+    pub(super) fn foreign(&self, name: &str) -> GpuError {
         self.refuse(&format!("{name:?} belongs to another device"))
     }
 
-    fn refuse(&self, reason: &str) -> GpuError {
+    pub(super) fn refuse(&self, reason: &str) -> GpuError {
         GpuError::Pass { pass: self.name.to_owned(), reason: reason.to_owned() }
     }
 }

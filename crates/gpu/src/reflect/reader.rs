@@ -7,16 +7,17 @@ use rspirv::{
     spirv::{BuiltIn, Capability, Decoration, ExecutionMode, ExecutionModel, Op, StorageClass, Word},
 };
 
-use super::{BufferBinding, BufferKind, Extent, ReflectError, Reflection, SpecConstant, Stage};
+use super::{Extent, ReflectError, Reflection, ResourceBinding, ResourceKind, SpecConstant, Stage, image};
 
 /// Deepest nesting of types that is followed; a malformed module may nest a type in itself.
 const MAX_DEPTH: u32 = 32;
 
 /// What a module may need: capabilities that every Vulkan device has, and those whose features are switched on.
-const CAPABILITIES: [Capability; 5] = [
+const CAPABILITIES: [Capability; 6] = [
     Capability::Matrix,
     Capability::Shader,
     Capability::DerivativeControl,
+    Capability::ImageQuery,
     Capability::Tessellation,
     // Refused with the device's name by `Device::shader`, where the device lacks it.
     Capability::TransformFeedback,
@@ -62,14 +63,14 @@ impl<'a> Reader<'a> {
             _ => return Err(malformed("the entry point has no name")),
         };
         self.check_capabilities()?;
-        let buffers = self.buffers()?;
-        if let Some(buffer) = buffers.iter().find(|buffer| buffer.writes && stage != Stage::Compute) {
-            return Err(ReflectError::Write { name: buffer.name.clone(), stage });
+        let resources = self.resources()?;
+        if let Some(written) = resources.iter().find(|one| one.writes && stage != Stage::Compute) {
+            return Err(ReflectError::Write { name: written.name.clone(), stage });
         }
         Ok(Reflection {
             stage,
             entry_point,
-            buffers,
+            resources,
             push_constant_size: self.push_constant_size()?,
             specialization: self.specialization(),
             local_size: if stage == Stage::Compute { Some(self.local_size()?) } else { None },
@@ -107,37 +108,38 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn buffers(&self) -> Result<Vec<BufferBinding>, ReflectError> {
-        let mut buffers: Vec<BufferBinding> = Vec::new();
+    fn resources(&self) -> Result<Vec<ResourceBinding>, ReflectError> {
+        let mut resources: Vec<ResourceBinding> = Vec::new();
         for variable in self.variables() {
             let (id, class, pointee) = variable?;
-            let Some(buffer) = self.buffer(id, class, pointee)? else { continue };
-            if let Some(other) = buffers.iter().find(|other| other.binding == buffer.binding) {
-                let (first, second) = (other.name.clone(), buffer.name);
-                return Err(ReflectError::Duplicate { binding: buffer.binding, first, second });
+            let Some(resource) = self.resource(id, class, pointee)? else { continue };
+            if let Some(other) = resources.iter().find(|other| other.binding == resource.binding) {
+                let (first, second) = (other.name.clone(), resource.name);
+                return Err(ReflectError::Duplicate { binding: resource.binding, first, second });
             }
-            buffers.push(buffer);
+            resources.push(resource);
         }
-        buffers.sort_by_key(|buffer| buffer.binding);
-        Ok(buffers)
+        resources.sort_by_key(|resource| resource.binding);
+        Ok(resources)
     }
 
-    /// The buffer that a variable stands for; `None` if it is no resource.
-    fn buffer(&self, id: Word, class: StorageClass, pointee: Word) -> Result<Option<BufferBinding>, ReflectError> {
+    /// The buffer or image that a variable stands for; `None` if it is no resource.
+    fn resource(&self, id: Word, class: StorageClass, pointee: Word) -> Result<Option<ResourceBinding>, ReflectError> {
         let name = self.block_name(id, pointee);
         let kind = match class {
-            StorageClass::StorageBuffer => BufferKind::Storage,
+            StorageClass::StorageBuffer => ResourceKind::StorageBuffer,
             // SPIR-V before 1.3 marks storage buffers by a decoration of the block.
             StorageClass::Uniform if self.decoration(pointee, None, Decoration::BufferBlock).is_some() => {
-                BufferKind::Storage
+                ResourceKind::StorageBuffer
             }
-            StorageClass::Uniform => BufferKind::Uniform,
-            StorageClass::UniformConstant => {
-                return Err(ReflectError::Resource { name, found: "an image or a sampler" });
-            }
+            StorageClass::Uniform => ResourceKind::UniformBuffer,
+            StorageClass::UniformConstant => match image::kind(&self.globals, pointee) {
+                Ok(kind) => kind,
+                Err(found) => return Err(ReflectError::Resource { name, found }),
+            },
             _ => return Ok(None),
         };
-        if self.globals.get(&pointee).is_none_or(|one| one.class.opcode != Op::TypeStruct) {
+        if kind.is_buffer() && self.globals.get(&pointee).is_none_or(|one| one.class.opcode != Op::TypeStruct) {
             return Err(ReflectError::Resource { name, found: "an array of buffers" });
         }
         let set = self.value(id, None, Decoration::DescriptorSet).unwrap_or(0);
@@ -146,14 +148,16 @@ impl<'a> Reader<'a> {
         }
         let binding = self.value(id, None, Decoration::Binding);
         let binding = binding.ok_or_else(|| malformed(&format!("{name:?} has no binding number")))?;
+        let writable = matches!(kind, ResourceKind::StorageBuffer | ResourceKind::StorageImage(_));
         let reads = !self.everywhere(id, pointee, Decoration::NonReadable);
-        let writes = kind == BufferKind::Storage && !self.everywhere(id, pointee, Decoration::NonWritable);
-        Ok(Some(BufferBinding { binding, kind, reads, writes, name }))
+        let writes = writable && !self.everywhere(id, pointee, Decoration::NonWritable);
+        Ok(Some(ResourceBinding { binding, kind, reads, writes, name }))
     }
 
-    /// Whether a variable, or every member of its block, is decorated so.
+    /// Whether a variable, or every member of its block if it is one, is decorated so.
     fn everywhere(&self, variable: Word, block: Word, decoration: Decoration) -> bool {
-        let members = self.globals.get(&block).map_or(0, |one| one.operands.len());
+        let block_type = self.globals.get(&block).filter(|one| one.class.opcode == Op::TypeStruct);
+        let members = block_type.map_or(0, |one| one.operands.len());
         let every = |member: usize| self.decoration(block, u32::try_from(member).ok(), decoration).is_some();
         self.decoration(variable, None, decoration).is_some() || (members > 0 && (0..members).all(every))
     }

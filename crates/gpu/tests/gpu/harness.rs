@@ -57,5 +57,5 @@ pub(crate) fn bind(buffers: &[&Buffer]) -> Bindings {
 pub(crate) fn target(device: &Device, name: &str, format: Format, samples: u32) -> Image {
     let copied = if samples == 1 { ImageUsage::COPY_SRC } else { ImageUsage::empty() };
     let usage = ImageUsage::TARGET | copied;
-    device.image(&ImageDesc { name, size: [16, 16], format, samples, usage }).unwrap()
+    device.image(&ImageDesc { name, size: [16, 16], format, samples, usage, ..ImageDesc::default() }).unwrap()
 }

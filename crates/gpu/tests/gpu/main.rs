@@ -10,5 +10,6 @@ mod prepared;
 mod reflection;
 mod refusals;
 mod render;
+mod textures;
 mod threads;
 mod timing;

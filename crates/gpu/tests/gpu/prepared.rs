@@ -79,7 +79,8 @@ fn painted(image: &Image, clear: Option<[f32; 4]>, texels: &osculate_gpu::Buffer
         name: "picture".to_owned(),
         color: Some(ColorTarget { image: image.clone(), clear, resolve: None }),
         depth: None,
-        size: [16, 16],
+        viewport: [16, 16].into(),
+        area: None,
         draws: vec![],
     });
     recording.copy_image_to_buffer(image, texels);
@@ -105,7 +106,8 @@ fn images_may_be_used_by_others_between_runs() {
             name: "blue".to_owned(),
             color: Some(ColorTarget { image: image.clone(), clear: Some([0.0, 0.0, 1.0, 1.0]), resolve: None }),
             depth: None,
-            size: [16, 16],
+            viewport: [16, 16].into(),
+            area: None,
             draws: vec![],
         });
         device.run(&blue).unwrap();

@@ -1,6 +1,6 @@
 //! Reflection of compiled shaders; needs no device.
 
-use osculate_gpu::{BufferKind, Extent, ReflectError, Reflection, Stage, reflect};
+use osculate_gpu::{Extent, Format, Numbers, ReflectError, Reflection, ResourceKind, Stage, reflect};
 
 use crate::harness::spirv;
 
@@ -26,18 +26,48 @@ fn buffers_have_kind_access_and_name() {
     );
     assert_eq!((found.stage, found.entry_point.as_str()), (Stage::Compute, "main"));
     let buffers: Vec<_> =
-        found.buffers.iter().map(|one| (one.binding, one.kind, one.reads, one.writes, one.name.as_str())).collect();
+        found.resources.iter().map(|one| (one.binding, one.kind, one.reads, one.writes, one.name.as_str())).collect();
     assert_eq!(
         buffers,
         [
-            (0, BufferKind::Uniform, true, false, "Camera"),
-            (1, BufferKind::Storage, true, false, "In"),
-            (2, BufferKind::Storage, false, true, "Out"),
-            (3, BufferKind::Storage, true, true, "Half"),
-            (5, BufferKind::Storage, true, true, "Both"),
+            (0, ResourceKind::UniformBuffer, true, false, "Camera"),
+            (1, ResourceKind::StorageBuffer, true, false, "In"),
+            (2, ResourceKind::StorageBuffer, false, true, "Out"),
+            (3, ResourceKind::StorageBuffer, true, true, "Half"),
+            (5, ResourceKind::StorageBuffer, true, true, "Both"),
         ]
     );
     assert_eq!((found.push_constant_size, found.local_size), (0, Some([Extent::Fixed(1); 3])));
+}
+
+#[test]
+fn images_have_kind_access_and_name() {
+    let found = reflected(
+        "images.comp",
+        "layout(binding = 0) uniform sampler2D colors;
+         layout(binding = 1) uniform usampler2D numbers;
+         layout(binding = 2, rgba32f) uniform readonly image2D before;
+         layout(binding = 3, rgba16f) uniform writeonly image2D after;
+         layout(binding = 4, r32f) uniform image2D both;
+         layout(binding = 5) uniform sampler2D unused;
+         void main() {
+             ivec2 at = ivec2(texelFetch(numbers, ivec2(0), 0).xy) + textureSize(colors, 0);
+             imageStore(after, at, texture(colors, vec2(0.5)) + imageLoad(before, at) + imageLoad(both, at));
+             imageStore(both, at, vec4(1.0));
+         }",
+    );
+    let images: Vec<_> =
+        found.resources.iter().map(|one| (one.binding, one.kind, one.reads, one.writes, one.name.as_str())).collect();
+    assert_eq!(
+        images,
+        [
+            (0, ResourceKind::Texture(Numbers::Float), true, false, "colors"),
+            (1, ResourceKind::Texture(Numbers::Uint), true, false, "numbers"),
+            (2, ResourceKind::StorageImage(Format::Rgba32Float), true, false, "before"),
+            (3, ResourceKind::StorageImage(Format::Rgba16Float), false, true, "after"),
+            (4, ResourceKind::StorageImage(Format::R32Float), true, true, "both"),
+        ]
+    );
 }
 
 #[test]
@@ -100,9 +130,26 @@ fn tessellation_and_capture_are_seen() {
 fn what_is_not_supported_is_named() {
     let set = refused("s.comp", "layout(set = 2, binding = 0) buffer Far { float far; }; void main() { far = 0.0; }");
     assert_eq!(set, ReflectError::Set { name: "Far".to_owned(), set: 2 });
-    let image = "layout(binding = 0) uniform sampler2D picture;
-         layout(location = 0) out vec4 c; void main() { c = texture(picture, vec2(0.0)); }";
-    assert!(refused("s.frag", image).to_string().contains("\"picture\" is an image"));
+    let lookups = [
+        ("sampler3D t", "texture(t, vec3(0.0))", "not two-dimensional"),
+        ("samplerCube t", "texture(t, vec3(0.0))", "not two-dimensional"),
+        ("sampler2DArray t", "texture(t, vec3(0.0))", "with layers"),
+        ("sampler2DMS t", "texelFetch(t, ivec2(0), 0)", "several samples"),
+        ("sampler2DShadow t", "vec4(texture(t, vec3(0.0)))", "compares depths"),
+        ("sampler2D t[2]", "texture(t[1], vec2(0.0))", "an array of images"),
+        ("texture2D t", "texelFetch(t, ivec2(0), 0)", "without its sampler"),
+    ];
+    for (declared, call, part) in lookups {
+        let source = format!(
+            "#extension GL_EXT_samplerless_texture_functions : enable
+             layout(binding = 0) uniform {declared}; layout(location = 0) out vec4 c; void main() {{ c = {call}; }}"
+        );
+        let error = refused("s.frag", &source).to_string();
+        assert!(error.contains("\"t\"") && error.contains(part), "{declared}: {error}");
+    }
+    let format =
+        "layout(binding = 0, rgba8_snorm) uniform image2D t; void main() { imageStore(t, ivec2(0), vec4(0.0)); }";
+    assert!(refused("s.comp", format).to_string().contains("a format other than"));
     let array = "layout(binding = 0) buffer Many { float x; } many[3]; void main() { many[1].x = 0.0; }";
     assert!(refused("a.comp", array).to_string().contains("an array of buffers"));
     let twice = "layout(binding = 0) buffer A { float a; }; layout(binding = 0) buffer B { float b; };

@@ -3,7 +3,7 @@
 use osculate_gpu::{
     Bindings, Buffer, BufferDesc, BufferUsage, CapturePass, ColorTarget, ComputePass, ComputePipelineDesc, DepthState,
     DepthTarget, Device, Draw, Format, GpuError, GraphicsPipeline, GraphicsPipelineDesc, ImageDesc, ImageUsage, Memory,
-    Recording, RenderPass, Topology, Vertices,
+    Recording, Rect, RenderPass, SamplerDesc, Topology, Vertices,
 };
 
 use crate::harness::{bind, compute_pass, compute_pipeline, open, shader, spirv, target, with_device};
@@ -89,6 +89,72 @@ fn copies_are_checked() {
 }
 
 #[test]
+fn copies_of_texels_are_checked() {
+    with_device(|device| {
+        let usage = ImageUsage::SAMPLED | ImageUsage::COPY_DST | ImageUsage::COPY_SRC;
+        let desc = ImageDesc { name: "sheet", size: [8, 8], usage, levels: 2, ..ImageDesc::default() };
+        let image = device.image(&desc).unwrap();
+        let buffer = words(device, "words", BufferUsage::empty());
+        let region = |level, origin, size| image.region(level, Rect { origin, size });
+        refused(device, &["\"words\"", "256 bytes", "4..260"], |r| r.copy_buffer_to_image(&buffer, 4, image.level(0)));
+        refused(device, &["offset of 2 bytes"], |r| r.copy_buffer_to_image(&buffer, 2, image.level(1)));
+        refused(device, &["level 2", "beyond"], |r| r.copy_buffer_to_image(&buffer, 0, region(2, [0, 0], [1, 1])));
+        refused(device, &["level 1", "beyond"], |r| r.copy_buffer_to_image(&buffer, 0, region(1, [3, 0], [2, 1])));
+        refused(device, &["level 0", "empty"], |r| r.copy_buffer_to_image(&buffer, 0, region(0, [3, 0], [0, 1])));
+        refused(device, &["levels of sheet", "nothing was drawn"], |r| r.fill_levels(&image));
+        let error = device.upload_image(&desc, &[0u8; 255]).unwrap_err().to_string();
+        assert!(error.contains("255 bytes") && error.contains("256 are needed"), "{error}");
+        let copied = device.image(&ImageDesc { usage: ImageUsage::SAMPLED | ImageUsage::STORAGE, ..desc }).unwrap();
+        refused(device, &["\"sheet\"", "COPY_DST"], |r| r.copy_buffer_to_image(&buffer, 0, copied.level(0)));
+    });
+}
+
+#[test]
+fn images_in_bindings_are_checked() {
+    with_device(|device| {
+        let source = "layout(binding = 0) uniform sampler2D picture;
+             layout(binding = 1, r32f) uniform image2D result;
+             void main() { imageStore(result, ivec2(0), texture(picture, vec2(0.0))); }";
+        let pipeline = compute_pipeline(device, "look.comp", source);
+        let usage = ImageUsage::SAMPLED | ImageUsage::STORAGE;
+        let desc = ImageDesc { name: "good", size: [4, 4], format: Format::R32Float, usage, ..ImageDesc::default() };
+        let image = |desc: &ImageDesc<'_>| device.upload_image(desc, &[0u32; 16]).unwrap();
+        let (good, result) = (image(&desc), image(&ImageDesc { name: "result", ..desc }));
+        let sampler = device.sampler(&SamplerDesc { name: "mean", ..SamplerDesc::default() }).unwrap();
+        let bound = |picture: &osculate_gpu::Image| Bindings::new().with_texture(0, picture, &sampler);
+        let bindings = bound(&good).with_storage_image(1, &result);
+        device.run(&recorded(|r| r.compute(compute_pass(&pipeline, bindings.clone(), 1)))).unwrap();
+        let refused = |parts: &[&str], bindings: Bindings| {
+            refused(device, parts, |r| r.compute(compute_pass(&pipeline, bindings, 1)));
+        };
+        refused(&["binding 1", "\"look.comp\"", "\"result\""], bound(&good));
+        let words = words(device, "words", BufferUsage::STORAGE);
+        refused(&["binding 0 is buffer \"words\"", "\"picture\" as a sampler2D"], bindings.clone().with(0, &words));
+        refused(&["without a sampler", "as a sampler2D"], bindings.clone().with_storage_image(0, &good));
+        refused(&["with a sampler", "storage image of R32Float"], bindings.clone().with_texture(1, &result, &sampler));
+        let numbers = image(&ImageDesc { name: "numbers", format: Format::R32Uint, ..desc });
+        refused(&["\"numbers\" of R32Uint", "as a sampler2D"], bindings.clone().with_texture(0, &numbers, &sampler));
+        refused(&["\"numbers\" of R32Uint", "image of R32Float"], bindings.clone().with_storage_image(1, &numbers));
+        let blank = device.image(&ImageDesc { name: "blank", ..desc }).unwrap();
+        refused(&["samples image \"blank\""], bindings.clone().with_texture(0, &blank, &sampler));
+        let unfit = image(&ImageDesc { name: "unfit", usage: ImageUsage::STORAGE, ..desc });
+        refused(&["\"unfit\"", "SAMPLED"], bindings.clone().with_texture(0, &unfit, &sampler));
+        refused(&["\"result\" in two roles"], bindings.clone().with_texture(0, &result, &sampler));
+        let theirs = open(false).sampler(&SamplerDesc { name: "theirs", ..SamplerDesc::default() }).unwrap();
+        refused(&["\"theirs\"", "another device"], bindings.with_texture(0, &good, &theirs));
+
+        // Integers have no means: the sampler is what is wrong.
+        let source = "layout(binding = 0) uniform usampler2D picture;
+             layout(binding = 1) buffer Sum { uint sum; };
+             void main() { sum = texture(picture, vec2(0.0)).r; }";
+        let whole = compute_pipeline(device, "whole.comp", source);
+        let mean = bound(&numbers).with(1, &words);
+        let error = device.submit(&recorded(|r| r.compute(compute_pass(&whole, mean, 1)))).unwrap_err().to_string();
+        assert!(error.contains("\"mean\"") && error.contains("R32Uint"), "{error}");
+    });
+}
+
+#[test]
 fn host_access_is_checked() {
     with_device(|device| {
         let make =
@@ -119,8 +185,8 @@ fn sizes_beyond_the_devices_limits_are_refused() {
             name: "wide",
             size: [1 << 24, 1],
             format: Format::Rgba8Unorm,
-            samples: 1,
             usage: ImageUsage::TARGET,
+            ..ImageDesc::default()
         };
         assert!(matches!(device.image(&wide), Err(GpuError::Limit { .. })));
         for odd in [
@@ -128,6 +194,11 @@ fn sizes_beyond_the_devices_limits_are_refused() {
             ImageDesc { size: [4, 4], samples: 3, ..wide },
             ImageDesc { size: [4, 4], usage: ImageUsage::COPY_SRC, ..wide },
             ImageDesc { size: [4, 4], samples: 4, usage: ImageUsage::TARGET | ImageUsage::COPY_SRC, ..wide },
+            ImageDesc { size: [4, 4], usage: ImageUsage::COPY_DST, ..wide },
+            ImageDesc { size: [4, 4], levels: 0, ..wide },
+            ImageDesc { size: [4, 4], levels: 4, ..wide },
+            ImageDesc { size: [4, 4], levels: 2, samples: 4, ..wide },
+            ImageDesc { size: [4, 4], format: Format::Rgba8Srgb, usage: ImageUsage::STORAGE, ..wide },
         ] {
             assert!(matches!(device.image(&odd), Err(GpuError::ImageUsage { .. })), "{odd:?}");
         }
@@ -269,7 +340,14 @@ fn simple_pipeline(device: &Device, color: Option<Format>, discard: bool) -> Gra
 }
 
 fn draw(pipeline: &GraphicsPipeline, vertices: Vertices) -> Draw {
-    Draw { pipeline: pipeline.clone(), bindings: Bindings::new(), push: vec![], vertices, instances: 0..1 }
+    Draw {
+        pipeline: pipeline.clone(),
+        bindings: Bindings::new(),
+        push: vec![],
+        vertices,
+        instances: 0..1,
+        scissor: None,
+    }
 }
 
 #[test]
@@ -284,12 +362,18 @@ fn targets_are_checked() {
             name: "draw".to_owned(),
             color: Some(ColorTarget { image: image.clone(), clear, resolve: None }),
             depth: None,
-            size: [16, 16],
+            viewport: [16, 16].into(),
+            area: None,
             draws: vec![],
         };
         refused(device, &["\"draw\"", "neither"], |r| r.render(RenderPass { color: None, ..pass(&color) }));
-        refused(device, &["larger than a target"], |r| r.render(RenderPass { size: [17, 1], ..pass(&color) }));
-        refused(device, &["larger than a target"], |r| r.render(RenderPass { size: [0, 1], ..pass(&color) }));
+        refused(device, &["beyond a target"], |r| r.render(RenderPass { viewport: [17, 1].into(), ..pass(&color) }));
+        refused(device, &["beyond a target"], |r| r.render(RenderPass { viewport: [0, 1].into(), ..pass(&color) }));
+        let outside = Rect { origin: [12, 0], size: [5, 16] };
+        refused(device, &["viewport", "beyond a target"], |r| {
+            r.render(RenderPass { viewport: outside, ..pass(&color) });
+        });
+        refused(device, &["area", "beyond a target"], |r| r.render(RenderPass { area: Some(outside), ..pass(&color) }));
         refused(device, &["depth image"], |r| r.render(pass(&depth)));
         let depth = |image| Some(DepthTarget { image, clear: Some(1.0) });
         let mixed = target(device, "depth4", Format::Depth32Float, 4);

@@ -2,7 +2,7 @@
 
 use osculate_gpu::{
     Bindings, Blend, BufferUsage, ColorTarget, DepthState, DepthTarget, Device, Draw, Format, GpuError,
-    GraphicsPipeline, GraphicsPipelineDesc, Image, PolygonMode, Recording, RenderPass, Tessellation, Topology,
+    GraphicsPipeline, GraphicsPipelineDesc, Image, PolygonMode, Recording, Rect, RenderPass, Tessellation, Topology,
     Vertices,
 };
 
@@ -35,6 +35,7 @@ fn draw(pipeline: &GraphicsPipeline, color: [f32; 4], depth: f32) -> Draw {
         push: push(color, depth),
         vertices: (0..3).into(),
         instances: 0..1,
+        scissor: None,
     }
 }
 
@@ -50,7 +51,7 @@ fn pipeline(device: &Device, change: impl Fn(&mut GraphicsPipelineDesc<'_>)) -> 
 }
 
 fn pass(color: ColorTarget, depth: Option<DepthTarget>, draws: Vec<Draw>) -> RenderPass {
-    RenderPass { name: "picture".to_owned(), color: Some(color), depth, size: [16, 16], draws }
+    RenderPass { name: "picture".to_owned(), color: Some(color), depth, viewport: [16, 16].into(), area: None, draws }
 }
 
 /// Renders one pass and reads the texels at (4, 8) and (12, 8) of `result`.
@@ -94,6 +95,98 @@ fn a_picture_is_kept_and_drawn_upon_in_later_passes_and_submissions() {
         let kept = ColorTarget { image: image.clone(), clear: None, resolve: None };
         let found = texels(device, pass(kept, None, vec![draw(&pipeline, RED, 0.0)]), &image);
         assert_eq!(found, [[255, 0, 0, 255], [0, 0, 255, 255]]);
+    });
+}
+
+/// All texels of the picture as characters, row by row: what is red, green, blue (cleared) or black (left as it was).
+fn drawing(device: &Device, passes: impl IntoIterator<Item = RenderPass>, result: &Image) -> Vec<String> {
+    let buffer = device.upload("texels", BufferUsage::empty(), &vec![0u8; result.byte_size() as usize]).unwrap();
+    let mut recording = Recording::new();
+    passes.into_iter().for_each(|pass| recording.render(pass));
+    recording.copy_image_to_buffer(result, &buffer);
+    device.run(&recording).unwrap();
+    let letter = |texel: &[u8; 4]| match texel {
+        [255, 0, 0, _] => 'r',
+        [0, 255, 0, _] => 'g',
+        [0, 0, 255, _] => 'b',
+        [0, 0, 0, 0] => '.',
+        other => panic!("{other:?}"),
+    };
+    let texels: Vec<[u8; 4]> = device.download(&buffer, ..).unwrap();
+    texels.chunks(16).map(|row| row.iter().map(letter).collect()).collect()
+}
+
+fn rect(x: u32, y: u32, width: u32, height: u32) -> Rect {
+    Rect { origin: [x, y], size: [width, height] }
+}
+
+/// A pass that makes all texels black, with nothing in alpha.
+fn blank(image: &Image) -> RenderPass {
+    pass(ColorTarget { image: image.clone(), clear: Some([0.0; 4]), resolve: None }, None, vec![])
+}
+
+#[test]
+fn scissors_cut_single_draws() {
+    with_device(|device| {
+        let image = target(device, "picture", Format::Rgba8Unorm, 1);
+        let pipeline = pipeline(device, |_| {});
+        let solid_green = [0.0, 1.0, 0.0, 1.0];
+        let cut = |color, scissor| Draw { scissor: Some(scissor), ..draw(&pipeline, color, 0.0) };
+        // The second draw reaches beyond the picture, the third has no texels, the fourth is not cut: it covers columns 0 to 7.
+        let draws = vec![cut(RED, rect(2, 1, 3, 2)), cut(solid_green, rect(6, 14, 90, 90)), cut(RED, rect(3, 3, 0, 9))];
+        let rows = drawing(device, [pass(cleared(&image, None), None, draws.clone())], &image);
+        let background = "b".repeat(16);
+        let expected = |y| match y {
+            1 | 2 => "bbrrrbbbbbbbbbbb",
+            14 | 15 => "bbbbbbggbbbbbbbb",
+            _ => background.as_str(),
+        };
+        assert_eq!(rows, (0..16).map(expected).collect::<Vec<_>>());
+        let whole = [draws, vec![draw(&pipeline, RED, 0.0)]].concat();
+        let rows = drawing(device, [pass(cleared(&image, None), None, whole)], &image);
+        assert_eq!(rows, vec!["rrrrrrrrbbbbbbbb"; 16]);
+    });
+}
+
+#[test]
+fn passes_draw_side_by_side_in_their_viewports() {
+    with_device(|device| {
+        let image = target(device, "picture", Format::Rgba8Unorm, 1);
+        let pipeline = pipeline(device, |_| {});
+        let side =
+            |viewport| RenderPass { viewport, ..pass(cleared(&image, None), None, vec![draw(&pipeline, RED, 0.0)]) };
+        let passes = [blank(&image), side(rect(0, 0, 8, 6)), side(rect(10, 2, 6, 10))];
+        let rows = drawing(device, passes, &image);
+        let row = |y| match y {
+            0..2 => "rrrrbbbb........",
+            2..6 => "rrrrbbbb..rrrbbb",
+            6..12 => "..........rrrbbb",
+            _ => "................",
+        };
+        assert_eq!(rows, (0..16).map(row).collect::<Vec<_>>());
+    });
+}
+
+/// Two pictures of one viewport, either side of a line: a wipe. With several samples the resolve keeps to the area, too.
+#[test]
+fn areas_cut_pictures_without_moving_them() {
+    with_device(|device| {
+        for samples in [1, 4] {
+            let result = target(device, "picture", Format::Rgba8Unorm, 1);
+            let drawn =
+                if samples > 1 { target(device, "samples", Format::Rgba8Unorm, samples) } else { result.clone() };
+            let resolve = (samples > 1).then_some(&result);
+            let pipeline = pipeline(device, |desc| desc.samples = samples);
+            let solid_green = [0.0, 1.0, 0.0, 1.0];
+            let part = |area, color| RenderPass {
+                area: Some(area),
+                ..pass(cleared(&drawn, resolve), None, vec![draw(&pipeline, color, 0.0)])
+            };
+            let passes = [blank(&result), part(rect(0, 0, 5, 16), RED), part(rect(5, 4, 11, 12), solid_green)];
+            let rows = drawing(device, passes, &result);
+            let row = |y| if y < 4 { "rrrrr..........." } else { "rrrrrgggbbbbbbbb" };
+            assert_eq!(rows, (0..16).map(row).collect::<Vec<_>>(), "{samples} samples");
+        }
     });
 }
 
@@ -142,6 +235,10 @@ fn alpha_is_blended() {
             texels(device, pass(cleared(&image, None), None, vec![draw(&pipeline, GREEN, 0.0)]), &image);
         assert!(left[1].abs_diff(128) <= 1 && left[2].abs_diff(128) <= 1, "{left:?}");
         assert_eq!(right, [0, 0, 255, 255]);
+        let premultiplied = self::pipeline(device, |desc| desc.blend = Blend::Premultiplied);
+        let [left, _] =
+            texels(device, pass(cleared(&image, None), None, vec![draw(&premultiplied, GREEN, 0.0)]), &image);
+        assert!(left[1] == 255 && left[2].abs_diff(128) <= 1 && left[3] == 255, "{left:?}");
     });
 }
 
@@ -192,6 +289,7 @@ fn indices_choose_vertices() {
             vertices: Vertices::Indexed { indices, range: 2..5 },
             // The instance moves it into the picture's left half.
             instances: 1..2,
+            scissor: None,
         };
         assert_eq!(texels(device, pass(cleared(&image, None), None, vec![draw]), &image)[0], [255, 0, 0, 255]);
     });
@@ -240,7 +338,8 @@ fn a_tessellated_quad_fills_its_square_solid_and_as_wires() {
             };
             let pipeline = device.graphics_pipeline(&desc)?;
             let bindings = Bindings::new();
-            let draw = Draw { pipeline, bindings, push: vec![], vertices: (0..4).into(), instances: 0..1 };
+            let draw =
+                Draw { pipeline, bindings, push: vec![], vertices: (0..4).into(), instances: 0..1, scissor: None };
             let image = target(device, name, Format::Rgba8Unorm, 1);
             Ok::<_, GpuError>(texels(device, pass(cleared(&image, None), None, vec![draw]), &image))
         };
