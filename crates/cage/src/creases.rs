@@ -5,7 +5,8 @@ use std::collections::HashSet;
 use glam::DVec3;
 use rayon::prelude::*;
 
-use crate::{Cage, Crease, FaceSetKind, FaceVarying, NONE, Warning};
+use crate::progress::{Cancelled, Watch};
+use crate::{Cage, Crease, FaceSetKind, FaceVarying, NONE, ReadObserver, ReadStage, Warning};
 
 /// Which inner edges become creases. Edges that have a tag keep it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,10 +32,12 @@ impl Default for CreaseDesc {
 
 impl Cage {
     /// Adds the creases that `desc` asks for, in the order of the edges, with a warning that counts them.
-    pub(crate) fn add_creases(&mut self, desc: &CreaseDesc) {
+    pub(crate) fn add_creases(&mut self, desc: &CreaseDesc, observer: Option<&ReadObserver>) -> Result<(), Cancelled> {
+        let watch = Watch::new(observer, ReadStage::Creases, self.topology().edge_count() as u64)?;
         let mut missing = Vec::new();
-        let found = Standing::new(self, desc, &mut missing).edges();
+        let found = Standing::new(self, desc, &mut missing).edges(&watch)?;
         self.add_found(&found, desc.sharpness, &missing);
+        Ok(())
     }
 
     fn add_found(&mut self, found: &[[u32; 2]], sharpness: f32, missing: &[&'static str]) {
@@ -80,11 +83,16 @@ impl<'a> Standing<'a> {
     }
 
     /// The ends of all inner edges that stand out.
-    fn edges(&self) -> Vec<[u32; 2]> {
+    fn edges(&self, watch: &Watch) -> Result<Vec<[u32; 2]>, Cancelled> {
         let topology = self.cage.topology();
-        let stands_out = |&h: &u32| topology.twin(h) != NONE && self.stands_out(h);
-        let edges = topology.edge_half_edges().par_iter().copied().filter(stands_out);
-        edges.map(|h| [topology.origin(h), topology.target(h)]).collect()
+        let first = |edge: u32| topology.edge_half_edges()[edge as usize];
+        let stands_out = |edge: &u32| {
+            // Once it is cancelled, the rest is skipped.
+            watch.at(*edge).is_ok() && topology.twin(first(*edge)) != NONE && self.stands_out(first(*edge))
+        };
+        let edges = (0..topology.edge_count() as u32).into_par_iter().filter(stands_out).map(first);
+        let ends = edges.map(|h| [topology.origin(h), topology.target(h)]).collect();
+        watch.check().map(|()| ends)
     }
 
     fn stands_out(&self, h: u32) -> bool {

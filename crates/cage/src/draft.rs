@@ -1,6 +1,6 @@
 //! What a reader found, on its way to a cage.
 
-use crate::{Cage, CageDesc, CageError, ReadDesc, ReadError, TagError};
+use crate::{Cage, CageDesc, CageError, ReadDesc, ReadError, TagError, repair};
 
 /// What a file holds, before it is known to be a cage.
 #[derive(Default)]
@@ -32,12 +32,14 @@ impl Draft {
 
 /// From what a file holds to a cage, the same way for all formats.
 pub(crate) fn build(cage: CageDesc, desc: &ReadDesc) -> Result<Cage, CageError> {
-    let mut cage = Cage::new(match &desc.repair {
-        Some(repair) => crate::repair(cage, repair)?,
+    let observer = desc.observer.as_ref();
+    let cage = match &desc.repair {
+        Some(repair) => repair::observed(cage, repair, observer)?,
         None => cage,
-    })?;
+    };
+    let mut cage = Cage::observed(cage, observer)?;
     if let Some(creases) = &desc.creases {
-        cage.add_creases(creases);
+        cage.add_creases(creases, observer)?;
     }
     Ok(cage)
 }

@@ -1,8 +1,9 @@
 //! What can go wrong between a file and a cage.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::listed::numbered;
+use crate::progress::Cancelled;
 use crate::{GltfError, LimitError, Listed, ObjError, OffError, PlyError, TagError, TopologyError};
 
 /// Why a [`CageDesc`](crate::CageDesc) is not a cage. Indices count from 0.
@@ -23,7 +24,7 @@ pub enum CageError {
     },
     /// The faces are not a manifold mesh.
     #[error(transparent)]
-    Topology(#[from] TopologyError),
+    Topology(TopologyError),
     /// A tag names something that does not exist.
     #[error(transparent)]
     Tag(#[from] TagError),
@@ -72,6 +73,24 @@ pub enum CageError {
         /// How many faces there are.
         faces: usize,
     },
+    /// Nothing is wrong, but the observer has ended the work.
+    #[error("reading was cancelled")]
+    Cancelled,
+}
+
+impl From<TopologyError> for CageError {
+    fn from(error: TopologyError) -> Self {
+        match error {
+            TopologyError::Cancelled => Self::Cancelled,
+            error => Self::Topology(error),
+        }
+    }
+}
+
+impl From<Cancelled> for CageError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
 }
 
 impl ReadError {
@@ -82,9 +101,23 @@ impl ReadError {
             Self::Limit { error, .. }
             | Self::Obj { error: ObjError::Limit(error), .. }
             | Self::Ply { error: PlyError::Limit(error), .. }
-            | Self::Off { error: OffError::Limit(error), .. } => Some(error),
+            | Self::Off { error: OffError::Limit(error), .. } => Some(error).filter(|e| **e != LimitError::Cancelled),
             _ => None,
         }
+    }
+
+    /// Turns what an observer's wish to end looks like, wherever it was heard, into [`ReadError::Cancelled`].
+    pub(crate) fn or_cancelled(self, file: &Path) -> Self {
+        let heard = match &self {
+            Self::Limit { error, .. }
+            | Self::Obj { error: ObjError::Limit(error), .. }
+            | Self::Ply { error: PlyError::Limit(error), .. }
+            | Self::Off { error: OffError::Limit(error), .. }
+            | Self::Gltf { error: GltfError::Limit(error), .. } => *error == LimitError::Cancelled,
+            Self::Refused { error, .. } => *error == CageError::Cancelled,
+            _ => false,
+        };
+        if heard { Self::Cancelled { file: file.display().to_string() } } else { self }
     }
 }
 
@@ -92,7 +125,12 @@ impl CageError {
     /// A reminder of how elements are numbered, for messages that name some.
     fn counting(&self) -> &'static str {
         match self {
-            Self::NoFaces | Self::TooLarge { .. } | Self::UvCount { .. } | Self::Appearance(_) | Self::Rig(_) => "",
+            Self::Cancelled
+            | Self::NoFaces
+            | Self::TooLarge { .. }
+            | Self::UvCount { .. }
+            | Self::Appearance(_)
+            | Self::Rig(_) => "",
             _ => " (elements count from 0)",
         }
     }
@@ -169,5 +207,11 @@ pub enum ReadError {
         line: Option<u32>,
         /// What is wrong.
         error: CageError,
+    },
+    /// The observer has ended the reading; nothing is known to be wrong with the file.
+    #[error("{file}: reading was cancelled")]
+    Cancelled {
+        /// The name of the file.
+        file: String,
     },
 }

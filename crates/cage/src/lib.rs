@@ -21,6 +21,7 @@ mod listed;
 mod obj;
 mod off;
 mod ply;
+mod progress;
 #[cfg(test)]
 mod random;
 mod read;
@@ -45,6 +46,7 @@ pub use listed::Listed;
 pub use obj::{ObjError, read_obj, write_obj};
 pub use off::{OffError, read_off};
 pub use ply::{PlyError, read_ply};
+pub use progress::{ReadObserver, ReadProgress, ReadStage};
 pub use read::{FileFormat, ReadDesc};
 pub use repair::{RepairDesc, RepairReport, repair};
 pub use rig::{

@@ -3,7 +3,7 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use crate::{Cage, CreaseDesc, GltfDesc, Limits, ReadError, RepairDesc, obj, off, ply, read_gltf};
+use crate::{Cage, CreaseDesc, GltfDesc, Limits, ReadError, ReadObserver, RepairDesc, obj, off, ply, read_gltf};
 
 /// How files become cages.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -16,6 +16,8 @@ pub struct ReadDesc {
     pub creases: Option<CreaseDesc>,
     /// How much a file may ask for.
     pub limits: Limits,
+    /// Who is told how far the reading is, and may end it; by default nobody.
+    pub observer: Option<ReadObserver>,
 }
 
 /// Formats of cages.
@@ -73,9 +75,11 @@ impl Cage {
     /// Reads a cage from a file, as [`Cage::read`] does, in a way that is told.
     ///
     /// # Errors
-    /// As [`Cage::read`], and files beyond the limits.
+    /// As [`Cage::read`], files beyond the limits, and [`ReadError::Cancelled`] where the observer wants no more of it.
     pub fn read_with(path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {
-        Self::read_owned_or_borrowed(desc.limits.read_file(path)?.into(), path, desc)
+        let bytes = desc.limits.read_file(path, desc.observer.as_ref());
+        let cage = bytes.and_then(|bytes| Self::read_owned_or_borrowed(bytes.into(), path, desc));
+        cage.map_err(|error| error.or_cancelled(path))
     }
 
     /// Reads a cage from bytes as if they were the file at `path`, which says what messages call it, where its external buffers
@@ -84,7 +88,7 @@ impl Cage {
     /// # Errors
     /// As [`Cage::read_with`].
     pub fn read_bytes(bytes: &[u8], path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {
-        Self::read_owned_or_borrowed(bytes.into(), path, desc)
+        Self::read_owned_or_borrowed(bytes.into(), path, desc).map_err(|error| error.or_cancelled(path))
     }
 
     fn read_owned_or_borrowed(bytes: Cow<'_, [u8]>, path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {

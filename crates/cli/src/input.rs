@@ -1,10 +1,15 @@
 //! Reading a cage and deciding which boundary rule applies to it.
 
+use crate::args::GlobalArgs;
 use crate::failure::Failure;
 use crate::options::ReadArgs;
+use crate::progress::Progress;
 use clap::{Args, ValueEnum};
 use osculate::{EngineError, PlanError};
-use osculate_cage::{BoundaryRule, Cage, CageError, LimitError, ReadDesc, ReadError};
+use osculate_cage::{
+    BoundaryRule, Cage, CageError, LimitError, ReadDesc, ReadError, ReadObserver, ReadProgress, ReadStage,
+};
+use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
 
 /// The cage and what happens at its boundary.
@@ -61,15 +66,15 @@ pub(crate) struct Input {
 
 impl InputArgs {
     /// Reads the cage, passing its warnings on.
-    pub(crate) fn read(&self) -> Result<Input, Failure> {
-        let input = self.read_silently()?;
+    pub(crate) fn read(&self, global: &GlobalArgs) -> Result<Input, Failure> {
+        let input = self.read_silently(global)?;
         warn(&self.file, &input.cage);
         Ok(input)
     }
 
     /// Reads the cage for a command whose result holds the warnings.
-    pub(crate) fn read_silently(&self) -> Result<Input, Failure> {
-        let cage = read(&self.file, &self.read.desc()?)?;
+    pub(crate) fn read_silently(&self, global: &GlobalArgs) -> Result<Input, Failure> {
+        let cage = read(&self.file, &self.read.desc()?, global)?;
         let boundary = self.boundary.map(BoundaryRule::from).or(cage.boundary_rule()).unwrap_or_default();
         Ok(Input { cage, boundary })
     }
@@ -92,9 +97,29 @@ impl InputArgs {
     }
 }
 
-/// Reads a cage.
-pub(crate) fn read(file: &Path, desc: &ReadDesc) -> Result<Cage, Failure> {
-    Cage::read_with(file, desc).map_err(|error| refusal(error, desc))
+/// Reads a cage, with a bar where that takes long.
+pub(crate) fn read(file: &Path, desc: &ReadDesc, global: &GlobalArgs) -> Result<Cage, Failure> {
+    let desc = ReadDesc { observer: Some(show_reading(global.quiet)), ..desc.clone() };
+    Cage::read_with(file, &desc).map_err(|error| refusal(error, &desc))
+}
+
+/// A bar that stays as long as the observer. Reading writes nothing, so an interruption ends the process without asking it.
+fn show_reading(quiet: bool) -> ReadObserver {
+    let bar = Progress::in_stages(quiet);
+    ReadObserver::new(move |ReadProgress { stage, done, total }| {
+        bar.stage(stage_name(stage), done, total);
+        ControlFlow::Continue(())
+    })
+}
+
+fn stage_name(stage: ReadStage) -> &'static str {
+    match stage {
+        ReadStage::Polygons => "finding polygons",
+        ReadStage::Repair => "repairing",
+        ReadStage::Topology => "joining faces",
+        ReadStage::Creases => "finding creases",
+        _ => "reading",
+    }
 }
 
 /// Passes the warnings of a cage on.

@@ -61,8 +61,8 @@ fn run(cli: Cli) -> Result<Verdict, Failure> {
         Some(Command::Sample(args)) => commands::sample::run(&args.validate()?, global),
         Some(Command::Export(args)) => commands::export::run(&args.validate()?, global),
         Some(Command::Check(args)) => commands::check::run(&args.validate()?, global),
-        Some(Command::Inspect(args)) => commands::inspect::run(&args.validate()?),
-        Some(Command::Repair(args)) => commands::repair::run(&args.validate()?),
+        Some(Command::Inspect(args)) => commands::inspect::run(&args.validate()?, global),
+        Some(Command::Repair(args)) => commands::repair::run(&args.validate()?, global),
         Some(Command::Compare(args)) => commands::compare::run(&args.validate()?),
         None => Err(no_command()),
     }

@@ -32,6 +32,21 @@ impl Progress {
         Self::start(quiet, bar, "{spinner} {msg} ({elapsed})", what)
     }
 
+    /// Work in stages, of which [`Self::stage`] tells.
+    pub(crate) fn in_stages(quiet: bool) -> Self {
+        Self::new(quiet, 0, "")
+    }
+
+    /// `done` of `total` units of the stage called `what` are done.
+    pub(crate) fn stage(&self, what: &'static str, done: u64, total: u64) {
+        if self.bar.message() != what {
+            self.bar.set_message(what);
+            self.bar.reset_eta();
+        }
+        self.bar.set_length(total);
+        self.bar.set_position(done);
+    }
+
     /// Counts `units` more as done.
     pub(crate) fn advance(&self, units: u64) {
         self.bar.inc(units);
@@ -63,5 +78,20 @@ impl Drop for Progress {
             let _shown_or_not = waiter.join();
         }
         self.bar.finish_and_clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn stages_follow_each_other() {
+        let progress = Progress::in_stages(true);
+        for (what, done, total) in [("reading", 0, 50), ("reading", 50, 50), ("repairing", 7, 9)] {
+            progress.stage(what, done, total);
+            let bar = &progress.bar;
+            assert_eq!((&bar.message()[..], bar.position(), bar.length()), (what, done, Some(total)));
+        }
     }
 }

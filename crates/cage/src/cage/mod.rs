@@ -9,8 +9,10 @@ use rayon::prelude::*;
 
 pub use parts::sub_faces;
 
+use crate::progress::Watch;
 use crate::{
-    Appearance, BoundaryRule, Bounds, CageError, Crease, Listed, NONE, PolygonReport, Rig, Tags, Topology, Warning,
+    Appearance, BoundaryRule, Bounds, CageError, Crease, Listed, NONE, PolygonReport, ReadObserver, ReadStage, Rig,
+    Tags, Topology, Warning, topology,
 };
 
 /// Data that belongs to the corners of faces rather than to vertices, so that it may jump at a seam.
@@ -140,6 +142,11 @@ impl Cage {
     /// # Errors
     /// Whatever keeps the description from being a manifold mesh with finite coordinates and tags that fit; the error names the elements.
     pub fn new(desc: CageDesc) -> Result<Self, CageError> {
+        Self::observed(desc, None)
+    }
+
+    /// [`Cage::new`] under the eyes of an observer.
+    pub(crate) fn observed(desc: CageDesc, observer: Option<&ReadObserver>) -> Result<Self, CageError> {
         let CageDesc {
             positions,
             mut face_offsets,
@@ -158,7 +165,9 @@ impl Cage {
             face_offsets.push(0);
         }
         check_finite(&positions)?;
-        let mut topology = Topology::build(positions.len(), face_offsets, face_vertices)?;
+        let steps = face_vertices.len() as u64 * topology::STEPS;
+        let watch = Watch::new(observer, ReadStage::Topology, steps)?;
+        let mut topology = topology::build(positions.len(), face_offsets, face_vertices, &watch)?;
         if topology.face_count() == 0 {
             return Err(CageError::NoFaces);
         }

@@ -11,7 +11,7 @@ use ::gltf::buffer::{Buffer, Source};
 use super::GltfError;
 use super::base64;
 use super::document::cut;
-use crate::{Limits, ReadError};
+use crate::{ReadDesc, ReadError};
 
 /// All buffers of a file, at least as long as announced.
 pub(super) struct Buffers {
@@ -23,8 +23,8 @@ pub(super) struct Buffers {
 }
 
 impl Buffers {
-    pub(super) fn load(gltf: &Gltf, folder: Option<&Path>, limits: Limits) -> Result<Self, GltfError> {
-        let mut loader = Loader { blob: gltf.blob.as_deref(), folder, limits, files: HashMap::new() };
+    pub(super) fn load(gltf: &Gltf, folder: Option<&Path>, desc: &ReadDesc) -> Result<Self, GltfError> {
+        let mut loader = Loader { blob: gltf.blob.as_deref(), folder, desc, files: HashMap::new() };
         let data = gltf.buffers().map(|buffer| loader.load(&buffer)).collect::<Result<_, _>>()?;
         let mut extensions = gltf.extensions_used().chain(gltf.extensions_required());
         let quantized = extensions.any(|name| name == "KHR_mesh_quantization");
@@ -44,7 +44,7 @@ impl Buffers {
 struct Loader<'a> {
     blob: Option<&'a [u8]>,
     folder: Option<&'a Path>,
-    limits: Limits,
+    desc: &'a ReadDesc,
     /// Many buffers may name one file.
     files: HashMap<PathBuf, Rc<[u8]>>,
 }
@@ -75,7 +75,7 @@ impl Loader<'_> {
         if let Some(data) = self.files.get(&file) {
             return Ok(data.clone());
         }
-        match self.limits.read_file(&file) {
+        match self.desc.limits.read_file(&file, self.desc.observer.as_ref()) {
             Ok(data) => Ok(self.files.entry(file).or_insert(data.into()).clone()),
             Err(ReadError::Limit { error, .. }) => Err(error.into()),
             Err(ReadError::Io { error, .. }) => Err(GltfError::BufferFile { buffer, file, error }),

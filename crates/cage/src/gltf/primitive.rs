@@ -111,6 +111,7 @@ impl<'a> Reader<'a> {
                 points.insert(vertex, *point);
             }
             context.gauge.face(3)?;
+            context.gauge.faces_done()?;
             soup.push_triangle(triangle);
         }
         Ok(())

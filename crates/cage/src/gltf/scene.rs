@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
+use ::gltf::mesh::Mode;
 use ::gltf::scene::Transform;
-use ::gltf::{Gltf, Mesh, Node};
+use ::gltf::{Gltf, Mesh, Node, Primitive, Semantic};
 use glam::{DAffine3, DMat3, DVec3};
 
 use super::GltfError;
@@ -49,6 +50,17 @@ impl<'a> Scene<'a> {
     /// The index in [`Scene::nodes`] of a node of the file.
     pub(super) fn find(&self, source: usize) -> Option<u32> {
         self.by_source.get(&source).copied()
+    }
+
+    /// How many triangles primitives speak of, at most; how many there are is another question.
+    pub(super) fn triangles_announced(&self) -> u64 {
+        let corners = |primitive: Primitive| {
+            let accessor = primitive.indices().or_else(|| primitive.get(&Semantic::Positions));
+            let corners = accessor.map_or(0, |accessor| accessor.count() as u64);
+            if primitive.mode() == Mode::Triangles { corners / 3 } else { corners }
+        };
+        let announced = self.meshes.iter().flat_map(|placed| placed.mesh.primitives()).map(corners);
+        announced.fold(0, u64::saturating_add)
     }
 
     /// No recursion: depth costs memory, not stack, and a node that is met twice is an error, so cycles end.

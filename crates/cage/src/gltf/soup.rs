@@ -8,6 +8,7 @@ use super::GltfError;
 use super::motion::{Influences, Morphs};
 use super::polygons::{self, Faces, Points, PolygonRecovery};
 use crate::face_sets::FaceSets;
+use crate::progress::{Cancelled, Watch};
 use crate::weld::{NearWelder, Welder};
 use crate::{CageDesc, FaceSetKind, FaceVarying, MorphSet, MorphTarget, NONE, UvSet, Warning};
 
@@ -187,9 +188,14 @@ impl Soup {
         sets.into_iter().flatten().collect()
     }
 
+    /// How many elements [`Soup::assemble`] looks at, about.
+    pub(super) fn steps(&self) -> u64 {
+        (self.positions.len() + polygons::STEPS * self.triangles.len()) as u64
+    }
+
     /// Welds the points, makes polygons of triangles, and drops those without area, as exporters make them at poles and between strips.
-    pub(super) fn assemble(&self, assembly: Assembly) -> Assembled {
-        let Welded { positions, vertices, points, apart } = self.weld_points(assembly);
+    pub(super) fn assemble(&self, assembly: Assembly, watch: &Watch) -> Result<Assembled, Cancelled> {
+        let Welded { positions, vertices, points, apart } = self.weld_points(assembly, watch)?;
         let uv: &[_] = self.uv.first().map_or(&[], |uv| uv);
         let seen = Points { vertices: &vertices, positions: &positions, uv };
         let mut faces = Faces::new();
@@ -200,7 +206,7 @@ impl Soup {
             sets.switch(FaceSetKind::Material, run.material_name.iter().cloned(), faces.count());
             let triangles = &self.triangles[*start..end];
             let run_of = polygons::Run { triangles, marked: run.marked, flipped: run.flipped };
-            polygons::recover(&run_of, &seen, assembly.recovery, &mut faces);
+            polygons::recover(&run_of, &seen, assembly.recovery, watch, &mut faces)?;
             materials.resize(faces.count() as usize, run.material.map_or(NONE, |m| m as u32));
         }
 
@@ -229,15 +235,17 @@ impl Soup {
             warnings,
             ..CageDesc::default()
         };
-        Assembled { desc, points, materials, more_uv, has_polygons }
+        watch.look()?;
+        Ok(Assembled { desc, points, materials, more_uv, has_polygons })
     }
 
-    fn weld_points(&self, assembly: Assembly) -> Welded {
-        let groups = self.groups(assembly.weld);
+    fn weld_points(&self, assembly: Assembly, watch: &Watch) -> Result<Welded, Cancelled> {
+        let groups = self.groups(assembly.weld, watch)?;
         let mut exact = Welder::default();
         let mut near = NearWelder::new(assembly.tolerance, &self.positions);
         let mut welded = Welded::default();
         for (point, p) in (0..).zip(&self.positions) {
+            watch.at(point)?;
             let group = groups.get(point as usize).copied().unwrap_or(0);
             let (vertex, new) = match &mut near {
                 Some(near) => near.weld(*p, group),
@@ -253,23 +261,24 @@ impl Soup {
             let mut places = Welder::default();
             welded.apart = welded.positions.iter().filter(|p| !places.weld(p.to_array(), 0).1).count();
         }
-        welded
+        Ok(welded)
     }
 
     /// Points of different groups are never welded: those of different nodes if these are to stay apart, and those that do not move
     /// together, like the lips of a closed mouth.
-    fn groups(&self, weld: Weld) -> Vec<u32> {
+    fn groups(&self, weld: Weld, watch: &Watch) -> Result<Vec<u32>, Cancelled> {
         if self.influences.is_empty() && weld == Weld::Scene {
-            return Vec::new();
+            return Ok(Vec::new());
         }
         let mut known: HashMap<Vec<u32>, u32> = HashMap::new();
         let mut group = |point: u32| {
+            watch.at(point)?;
             let mut key = self.movement(point);
             if weld == Weld::Nodes {
                 key.push(self.point_parts[point as usize]);
             }
             let next = known.len() as u32;
-            *known.entry(key).or_insert(next)
+            Ok(*known.entry(key).or_insert(next))
         };
         (0..self.point_count()).map(&mut group).collect()
     }

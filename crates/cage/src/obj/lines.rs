@@ -12,6 +12,11 @@ impl<'a> Lines<'a> {
     pub(super) fn new(text: &'a [u8]) -> Self {
         Self(PhysicalLines::new(text))
     }
+
+    /// How many bytes are left.
+    pub(super) fn left(&self) -> usize {
+        self.0.left()
+    }
 }
 
 impl<'a> Iterator for Lines<'a> {

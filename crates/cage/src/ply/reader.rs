@@ -14,7 +14,7 @@ use crate::{CageDesc, FaceVarying, NONE, ReadDesc, Warning};
 const UV: [[&str; 2]; 4] = [["s", "t"], ["u", "v"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
 
 pub(super) fn parse(bytes: &[u8], desc: &ReadDesc) -> Result<Draft, PlyError> {
-    let gauge = Gauge::new(desc.limits, bytes)?;
+    let gauge = Gauge::new(desc, bytes)?;
     let header = header::parse(bytes)?;
     let mut source = Source::new(bytes, &header);
     let mut reader = Reader::new(gauge, desc.repair.is_some());
@@ -101,12 +101,13 @@ impl Reader {
         let slots: Vec<Option<usize>> = (0..element.properties.len()).map(|i| row.slot(i)).collect();
         for index in 0..element.count {
             let at = At { element, index };
+            self.gauge.left(source.left_bytes())?;
             self.gauge.vertex()?;
             let mut values = [0.0; 5];
             for (property, slot) in element.properties.iter().zip(&slots) {
                 match (property.kind, slot) {
                     (Kind::Scalar(scalar), &Some(slot)) => values[slot] = source.number(scalar, at)?,
-                    (kind, _) => source.skip(kind, at)?,
+                    (kind, _) => source.skip(kind, at, &mut self.gauge)?,
                 }
             }
             if !values.iter().all(|value| value.is_finite()) {
@@ -136,6 +137,7 @@ impl Reader {
         let mut coordinates = Vec::new();
         for index in 0..element.count {
             let at = At { element, index };
+            self.gauge.left(source.left_bytes())?;
             if source.is_text() {
                 self.lines.faces.push(source.line());
             }
@@ -145,10 +147,11 @@ impl Reader {
                     Kind::List { count, value } if i == corners => self.corners(count, value, at, source)?,
                     Kind::List { count, value } if Some(i) == texcoord => {
                         for _ in 0..source.length(count, value, at)? {
+                            self.gauge.part()?;
                             coordinates.push(source.number(value, at)?);
                         }
                     }
-                    kind => source.skip(kind, at)?,
+                    kind => source.skip(kind, at, &mut self.gauge)?,
                 }
             }
             self.texture_corners(&coordinates, index)?;
@@ -163,6 +166,7 @@ impl Reader {
             return Err(PlyError::TooFewCorners { face: at.index, corners: length });
         }
         for _ in 0..length {
+            self.gauge.part()?;
             let index = source.integer(value, at)?;
             // How many vertices there are may be known later only.
             let vertex = u32::try_from(index).ok().filter(|&v| v != NONE);
@@ -201,8 +205,9 @@ impl Reader {
     /// Steps over an element that means nothing to a cage.
     fn others(&mut self, element: &Element, source: &mut Source<'_>) -> Result<(), PlyError> {
         for index in 0..element.count {
+            self.gauge.left(source.left_bytes())?;
             for property in &element.properties {
-                source.skip(property.kind, At { element, index })?;
+                source.skip(property.kind, At { element, index }, &mut self.gauge)?;
             }
         }
         if element.count > 0 {

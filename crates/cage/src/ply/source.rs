@@ -2,6 +2,7 @@
 
 use super::PlyError;
 use super::header::{Element, Format, Header, Kind, Scalar};
+use crate::limits::Gauge;
 use crate::text::{float, integer, quoted};
 
 /// The element that is being read, for messages.
@@ -38,6 +39,11 @@ impl<'a> Source<'a> {
     pub(super) fn line(&mut self) -> u32 {
         self.skip_white();
         self.line
+    }
+
+    /// How many bytes are left.
+    pub(super) fn left_bytes(&self) -> usize {
+        self.rest.len()
     }
 
     /// What is left: words or bytes.
@@ -99,7 +105,7 @@ impl<'a> Source<'a> {
     }
 
     /// Steps over a property.
-    pub(super) fn skip(&mut self, kind: Kind, at: At<'_>) -> Result<(), PlyError> {
+    pub(super) fn skip(&mut self, kind: Kind, at: At<'_>, gauge: &mut Gauge) -> Result<(), PlyError> {
         let (values, scalar) = match kind {
             Kind::Scalar(scalar) => (1, scalar),
             Kind::List { count, value } => (self.length(count, value, at)?, value),
@@ -108,6 +114,7 @@ impl<'a> Source<'a> {
             return self.bytes(values * scalar.bytes(), at).map(drop);
         }
         for _ in 0..values {
+            gauge.part()?;
             if self.word().is_empty() {
                 return Err(at.truncated());
             }

@@ -4,13 +4,14 @@ use std::cmp::Ordering;
 
 use super::loops::Loops;
 use super::report::RepairReport;
+use crate::progress::{Cancelled, Watch};
 
 /// Drops faces with the corners of an earlier one. A face that runs the other way is dropped only where it stands in the way: two
 /// faces back to back that nothing else touches are a closed mesh, and so are those between two volumes.
-pub(super) fn drop_copies(loops: &mut Loops, report: &mut RepairReport) {
+pub(super) fn drop_copies(loops: &mut Loops, watch: &Watch, report: &mut RepairReport) -> Result<(), Cancelled> {
     let mut dropped = vec![false; loops.face_count()];
     let mut opposite = Vec::new();
-    for group in groups(loops) {
+    for group in groups(loops, watch)? {
         let (first, forward) = group[0];
         let mut back: Option<u32> = None;
         for &(f, way) in &group[1..] {
@@ -31,17 +32,19 @@ pub(super) fn drop_copies(loops: &mut Loops, report: &mut RepairReport) {
     if dropped.contains(&true) {
         loops.retain(|f| !dropped[f as usize]);
     }
+    watch.look()
 }
 
 /// Faces with the same corners, in rising order, each with the direction in which it runs; only groups of several.
-fn groups(loops: &Loops) -> Vec<Vec<(u32, bool)>> {
+fn groups(loops: &Loops, watch: &Watch) -> Result<Vec<Vec<(u32, bool)>>, Cancelled> {
     // Sums do not depend on the order of corners; they find candidates quickly.
     let signature = |f: u32| {
         let spread = |p: u32| (u64::from(p) + 1).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
         let mixed = |&p: &u32| spread(p).wrapping_mul(spread(p) | 1);
         loops.places[loops.row(f)].iter().map(mixed).fold(0, u64::wrapping_add)
     };
-    let mut keyed: Vec<(u64, u32)> = (0..loops.face_count() as u32).map(|f| (signature(f), f)).collect();
+    let entry = |f: u32| watch.at(f).map(|()| (signature(f), f));
+    let mut keyed: Vec<(u64, u32)> = (0..loops.face_count() as u32).map(entry).collect::<Result<_, _>>()?;
     keyed.sort_unstable();
     let mut groups = Vec::new();
     for candidates in keyed.chunk_by(|a, b| a.0 == b.0).filter(|candidates| candidates.len() > 1) {
@@ -56,7 +59,7 @@ fn groups(loops: &Loops) -> Vec<Vec<(u32, bool)>> {
         let same = canonical.chunk_by(|a, b| a.0 == b.0).filter(|same| same.len() > 1);
         groups.extend(same.map(|same| same.iter().map(|&(_, f, forward)| (f, forward)).collect()));
     }
-    groups
+    Ok(groups)
 }
 
 /// The cycle of places in a form that does not depend on where it starts and which way it runs, and whether it runs that way.

@@ -5,6 +5,7 @@ use rayon::prelude::*;
 use super::loops::Loops;
 use super::pairs::Pairs;
 use crate::NONE;
+use crate::progress::{Cancelled, Watch};
 
 /// The vertices of a repaired mesh.
 pub(super) struct Fans {
@@ -19,13 +20,14 @@ const PATIENCE: [usize; 2] = [4, 16];
 
 /// Makes vertices, taking pairs apart where a face would visit a vertex twice or two edges would have the same ends: such meshes
 /// exist, but indices cannot describe them.
-pub(super) fn make(loops: &Loops, pairs: &mut Pairs) -> Fans {
+pub(super) fn make(loops: &Loops, pairs: &mut Pairs, watch: &Watch) -> Result<Fans, Cancelled> {
     let mut round = 0;
     loop {
-        let fans = Fans::number(loops, pairs);
+        let fans = Fans::number(loops, pairs, watch)?;
         let conflicts = fans.conflicts(loops, pairs);
+        watch.look()?;
         if conflicts.is_empty() {
-            return fans;
+            return Ok(fans);
         }
         for conflict in conflicts {
             let cuts = conflict.iter().filter(|h| pairs.cut(**h)).count();
@@ -43,10 +45,11 @@ pub(super) fn make(loops: &Loops, pairs: &mut Pairs) -> Fans {
 }
 
 impl Fans {
-    fn number(loops: &Loops, pairs: &Pairs) -> Self {
+    fn number(loops: &Loops, pairs: &Pairs, watch: &Watch) -> Result<Self, Cancelled> {
         let corners = loops.corners.len() as u32;
         let mut parents: Vec<u32> = (0..corners).collect();
         for h in 0..corners {
+            watch.at(h)?;
             let mate = pairs.mate(h);
             if mate != NONE && h < mate {
                 // The corners at both ends, whichever way the other runs.
@@ -62,6 +65,7 @@ impl Fans {
         let mut fan_of = vec![NONE; corners as usize];
         let mut lowest = Vec::new();
         for (c, &root) in roots.iter().enumerate() {
+            watch.at(c as u32)?;
             if root as usize == c {
                 fan_of[c] = lowest.len() as u32;
                 lowest.push(NONE);
@@ -71,7 +75,7 @@ impl Fans {
         }
         let (numbers, sources) = in_order(&lowest);
         let vertices = roots.iter().map(|&root| numbers[fan_of[root as usize] as usize]).collect();
-        Self { vertices, sources }
+        Ok(Self { vertices, sources })
     }
 
     /// Sets of half-edges that must not all stay joined: those at a vertex that their face visits twice, and those of edges that

@@ -2,6 +2,7 @@
 
 use super::report::RepairReport;
 use crate::CageDesc;
+use crate::progress::{Cancelled, Watch};
 
 /// The faces that are kept, as rows of corners. A half-edge is a corner here, as in a topology, and runs to the next of its row.
 pub(super) struct Loops {
@@ -22,7 +23,12 @@ pub(super) struct Loops {
 impl Loops {
     /// Takes the faces of a description, without corners that repeat the place of their neighbour and without spikes, and
     /// without those of which fewer than three corners are left.
-    pub(super) fn clean(desc: &CageDesc, places: &[u32], report: &mut RepairReport) -> Self {
+    pub(super) fn clean(
+        desc: &CageDesc,
+        places: &[u32],
+        watch: &Watch,
+        report: &mut RepairReport,
+    ) -> Result<Self, Cancelled> {
         let mut loops = Self {
             offsets: vec![0],
             corners: Vec::with_capacity(desc.face_vertices.len()),
@@ -34,6 +40,7 @@ impl Loops {
         let place = |corner: u32| places[desc.face_vertices[corner as usize] as usize];
         let mut row = Vec::new();
         for (f, pair) in (0..).zip(desc.face_offsets.windows(2)) {
+            watch.at(f)?;
             row.clear();
             clean_row(pair[0]..pair[1], place, &mut row);
             if row.len() < 3 {
@@ -47,7 +54,7 @@ impl Loops {
         }
         loops.vertices = loops.corners.iter().map(|&corner| desc.face_vertices[corner as usize]).collect();
         loops.places = loops.vertices.iter().map(|&v| places[v as usize]).collect();
-        loops
+        Ok(loops)
     }
 
     fn push(&mut self, source: u32, row: &[u32]) {

@@ -26,8 +26,9 @@ use loops::Loops;
 use pairs::Pairs;
 use places::places;
 
+use crate::progress::{Cancelled, Watch};
 use crate::topology::check_rows;
-use crate::{CageDesc, CageError, Warning};
+use crate::{CageDesc, CageError, ReadObserver, ReadStage, Warning};
 
 /// How a mesh is repaired.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -36,6 +37,8 @@ pub struct RepairDesc {
     pub weld_tolerance: f64,
 }
 
+/// One that repairs and one that finds nothing more to do; what is fine is done after half of it.
+const USUAL_PASSES: u64 = 2;
 /// Joining may uncover more to join, but hardly ever twice.
 const PASSES: usize = 8;
 
@@ -49,7 +52,15 @@ const PASSES: usize = 8;
 /// # Errors
 /// Faces that name vertices that do not exist, and data that does not have one value per face corner.
 pub fn repair(desc: CageDesc, options: &RepairDesc) -> Result<CageDesc, CageError> {
-    let mut desc = desc;
+    observed(desc, options, None)
+}
+
+/// [`repair`] under the eyes of an observer.
+pub(crate) fn observed(
+    mut desc: CageDesc,
+    options: &RepairDesc,
+    observer: Option<&ReadObserver>,
+) -> Result<CageDesc, CageError> {
     if desc.face_offsets.is_empty() {
         desc.face_offsets.push(0);
     }
@@ -63,9 +74,10 @@ pub fn repair(desc: CageDesc, options: &RepairDesc) -> Result<CageDesc, CageErro
     if let Some(rig) = &desc.rig {
         rig.check(desc.positions.len()).map_err(CageError::Rig)?;
     }
+    let watch = Watch::new(observer, ReadStage::Repair, USUAL_PASSES * steps(&desc))?;
     let mut done = RepairReport::default();
     for _ in 0..PASSES {
-        let (repaired, report) = pass(desc, options);
+        let (repaired, report) = pass(desc, options, &watch)?;
         desc = repaired;
         let finished = report.is_empty();
         done.add(report);
@@ -79,17 +91,24 @@ pub fn repair(desc: CageDesc, options: &RepairDesc) -> Result<CageDesc, CageErro
     Ok(desc)
 }
 
-fn pass(desc: CageDesc, options: &RepairDesc) -> (CageDesc, RepairReport) {
+/// How many elements a pass looks at.
+fn steps(desc: &CageDesc) -> u64 {
+    let (vertices, faces, corners) = (desc.positions.len(), desc.face_offsets.len(), desc.face_vertices.len());
+    (vertices + 2 * faces + 3 * corners) as u64
+}
+
+fn pass(desc: CageDesc, options: &RepairDesc, watch: &Watch) -> Result<(CageDesc, RepairReport), Cancelled> {
     let mut report = RepairReport::default();
-    let places = places(&desc, options.weld_tolerance);
-    let mut loops = Loops::clean(&desc, &places, &mut report);
-    copies::drop_copies(&mut loops, &mut report);
+    let places = places(&desc, options.weld_tolerance, watch)?;
+    let mut loops = Loops::clean(&desc, &places, watch, &mut report)?;
+    copies::drop_copies(&mut loops, watch, &mut report)?;
     let mut pairs = Pairs::default();
-    let flipped = pairs.join(&desc, &loops, &mut report);
-    let fans = fans::make(&loops, &mut pairs);
+    let flipped = pairs.join(&desc, &loops, watch, &mut report)?;
+    let fans = fans::make(&loops, &mut pairs, watch)?;
     let tags = carry::tags(&desc, &loops, &fans, &mut report);
+    watch.look()?;
     carry::report(&desc, &loops, &fans, &flipped, &mut report);
     // Nothing to do leaves everything as it was, to the last number.
     let desc = if report.is_empty() { desc } else { carry(desc, tags, &loops, &fans, &flipped) };
-    (desc, report)
+    Ok((desc, report))
 }

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 use super::loops::Loops;
 use super::report::RepairReport;
 use super::winding::Winding;
+use crate::progress::{Cancelled, Watch};
 use crate::{CageDesc, NONE};
 
 /// Half-edges in pairs, each in one pair at most.
@@ -47,11 +48,18 @@ impl Pairs {
     /// Finds the pairs, from certain ones to likely ones: two half-edges alone between two vertices; two that are left over
     /// between two places; neighbours around a crowded place, with the inside of the mesh between them. Returns which faces have
     /// to be turned over.
-    pub(super) fn join(&mut self, desc: &CageDesc, loops: &Loops, report: &mut RepairReport) -> Vec<bool> {
+    pub(super) fn join(
+        &mut self,
+        desc: &CageDesc,
+        loops: &Loops,
+        watch: &Watch,
+        report: &mut RepairReport,
+    ) -> Result<Vec<bool>, Cancelled> {
         self.mates = vec![NONE; loops.corners.len()];
         let mut winding = Winding::new(loops.face_count());
-        self.join_vertices(desc, loops, &mut winding, report);
+        self.join_vertices(desc, loops, &mut winding, watch, report)?;
         let groups = self.lonely(loops);
+        watch.look()?;
         for group in &groups {
             if let [a, b] = group[..] {
                 self.try_pair(a, b, loops, &mut winding);
@@ -64,16 +72,27 @@ impl Pairs {
             let normals: Vec<DVec3> =
                 (0..loops.face_count() as u32).into_par_iter().map(|f| normal(f, desc, loops)).collect();
             let axes = |group: &[u32]| angles(group, &normals, desc, loops);
-            crowds.into_iter().for_each(|group| self.join_wedges(group, &axes(group), loops, &turned));
+            for (k, group) in (0..).zip(crowds) {
+                watch.pulse(k)?;
+                self.join_wedges(group, &axes(group), loops, &turned);
+            }
         }
-        turned
+        Ok(turned)
     }
 
     /// Pairs half-edges that are alone between two vertices.
-    fn join_vertices(&mut self, desc: &CageDesc, loops: &Loops, winding: &mut Winding, report: &mut RepairReport) {
-        let mut keyed: Vec<([u32; 2], u32)> =
-            (0..loops.corners.len() as u32).into_par_iter().map(|h| (loops.vertex_ends(h), h)).collect();
+    fn join_vertices(
+        &mut self,
+        desc: &CageDesc,
+        loops: &Loops,
+        winding: &mut Winding,
+        watch: &Watch,
+        report: &mut RepairReport,
+    ) -> Result<(), Cancelled> {
+        let half_edges = (0..loops.corners.len() as u32).into_par_iter();
+        let mut keyed: Vec<([u32; 2], u32)> = half_edges.map(|h| (loops.vertex_ends(h), h)).collect();
         keyed.par_sort_unstable();
+        watch.look()?;
         let mut candidates = Vec::new();
         for group in keyed.chunk_by(|a, b| a.0 == b.0) {
             let ends = group[0].0.map(|v| desc.source_vertex(v));
@@ -85,11 +104,13 @@ impl Pairs {
         }
         // In the order of the faces: where a part is one-sided, it is opened as late as possible.
         candidates.sort_unstable();
-        for (a, b, ends) in candidates {
+        for (k, (a, b, ends)) in (0..).zip(candidates) {
+            watch.at(k)?;
             if loops.faces[a as usize] != loops.faces[b as usize] && !self.try_pair(a, b, loops, winding) {
                 report.opened_edges.push(ends);
             }
         }
+        Ok(())
     }
 
     /// Pairs two half-edges unless they are of one face or the winding forbids it.

@@ -2,12 +2,13 @@
 
 use std::collections::HashMap;
 
+use crate::progress::{Cancelled, Watch};
 use crate::weld::{NearWelder, Welder};
 use crate::{CageDesc, NONE, Rig};
 
 /// For each vertex the first vertex at its place, within a tolerance; [`NONE`] for vertices without faces, which are at no place.
 /// Vertices that move differently are at different places: welded, they would be torn.
-pub(super) fn places(desc: &CageDesc, tolerance: f64) -> Vec<u32> {
+pub(super) fn places(desc: &CageDesc, tolerance: f64, watch: &Watch) -> Result<Vec<u32>, Cancelled> {
     let mut used = vec![false; desc.positions.len()];
     desc.face_vertices.iter().for_each(|&v| used[v as usize] = true);
 
@@ -16,8 +17,9 @@ pub(super) fn places(desc: &CageDesc, tolerance: f64) -> Vec<u32> {
     let mut near = NearWelder::new(tolerance, &desc.positions);
     let mut firsts = Vec::new();
     let place = |(v, p): (u32, &glam::DVec3)| {
+        watch.at(v)?;
         if !used[v as usize] {
-            return NONE;
+            return Ok(NONE);
         }
         let way = ways.as_ref().map_or(0, |ways| ways[v as usize]);
         let (number, new) = match &mut near {
@@ -27,7 +29,7 @@ pub(super) fn places(desc: &CageDesc, tolerance: f64) -> Vec<u32> {
         if new {
             firsts.push(v);
         }
-        firsts[number as usize]
+        Ok(firsts[number as usize])
     };
     (0..).zip(&desc.positions).map(place).collect()
 }

@@ -7,19 +7,25 @@ use std::collections::HashSet;
 use rayon::prelude::*;
 
 use super::{EdgeFaces, FaceCorner, Fans, Ring, Topology, TopologyError};
+use crate::progress::{Cancelled, Watch};
 use crate::{Listed, NONE};
 
 /// Ranges of vertices below this are sorted on one thread.
 const SORT_GRAIN: usize = 4096;
 
-pub(super) fn build(
+/// How often [`build`] looks at each half-edge, for its watch.
+pub(crate) const STEPS: u64 = 6;
+
+/// [`Topology::build`] under a watch.
+pub(crate) fn build(
     vertex_count: usize,
     face_offsets: Vec<u32>,
     face_vertices: Vec<u32>,
+    watch: &Watch,
 ) -> Result<Topology, TopologyError> {
     check_counts(vertex_count, face_vertices.len())?;
     check_offsets(&face_offsets, face_vertices.len())?;
-    check_corners(vertex_count, &face_offsets, &face_vertices)?;
+    check_corners(vertex_count, &face_offsets, &face_vertices, watch)?;
 
     let mut topology = Topology {
         faces: faces_of_half_edges(&face_offsets),
@@ -31,10 +37,10 @@ pub(super) fn build(
         vertex_half_edges: Vec::new(),
         face_valences: Vec::new(),
     };
-    topology.twins = pair(&topology, vertex_count)?;
-    number_edges(&mut topology);
-    find_vertex_half_edges(&mut topology, vertex_count);
-    check_fans(&topology)?;
+    topology.twins = pair(&topology, vertex_count, watch)?;
+    number_edges(&mut topology, watch)?;
+    find_vertex_half_edges(&mut topology, vertex_count, watch)?;
+    check_fans(&topology, watch)?;
     Ok(topology)
 }
 
@@ -84,7 +90,7 @@ pub(crate) fn repeats(corners: &[u32]) -> bool {
     !repetitions(corners).is_empty()
 }
 
-fn check_corners(vertex_count: usize, offsets: &[u32], vertices: &[u32]) -> Result<(), TopologyError> {
+fn check_corners(vertex_count: usize, offsets: &[u32], vertices: &[u32], watch: &Watch) -> Result<(), TopologyError> {
     let faces = offsets.len() - 1;
     let face = |f: u32| row(offsets, vertices, f as usize);
 
@@ -93,10 +99,16 @@ fn check_corners(vertex_count: usize, offsets: &[u32], vertices: &[u32]) -> Resu
         return Err(TopologyError::TooFewCorners(small));
     }
     check_vertices(vertex_count, offsets, vertices)?;
-    let repeated: Vec<FaceCorner> = (0..faces as u32)
+    let repeated: Result<Vec<Vec<FaceCorner>>, Cancelled> = (0..faces as u32)
         .into_par_iter()
-        .flat_map_iter(|f| repeated_vertices(face(f)).into_iter().map(move |vertex| FaceCorner { face: f, vertex }))
+        .map(|f| {
+            watch.at(f)?;
+            let repeated = repeated_vertices(face(f)).into_iter();
+            Ok(repeated.map(|vertex| FaceCorner { face: f, vertex }).collect::<Vec<_>>())
+        })
+        .filter(|found| found.as_ref().map_or(true, |found| !found.is_empty()))
         .collect();
+    let repeated = repeated?.concat();
     if !repeated.is_empty() {
         return Err(TopologyError::RepeatedVertex(repeated.into_iter().collect()));
     }
@@ -138,7 +150,7 @@ struct Buckets {
 }
 
 impl Buckets {
-    fn new(topology: &Topology, vertex_count: usize) -> Self {
+    fn new(topology: &Topology, vertex_count: usize, watch: &Watch) -> Result<Self, Cancelled> {
         let low_high = |h: u32| {
             let (a, b) = (topology.origin(h), topology.target(h));
             (a.min(b), a.max(b))
@@ -146,6 +158,7 @@ impl Buckets {
         let half_edges = 0..topology.half_edge_count() as u32;
         let mut offsets = vec![0_u32; vertex_count + 1];
         for h in half_edges.clone() {
+            watch.at(h)?;
             offsets[low_high(h).0 as usize + 1] += 1;
         }
         for v in 0..vertex_count {
@@ -154,13 +167,14 @@ impl Buckets {
         let mut cursors = offsets.clone();
         let mut entries = vec![0_u64; topology.half_edge_count()];
         for h in half_edges {
+            watch.at(h)?;
             let (low, high) = low_high(h);
             let cursor = &mut cursors[low as usize];
             entries[*cursor as usize] = u64::from(high) << 32 | u64::from(h);
             *cursor += 1;
         }
-        sort_rows(&offsets, &mut entries);
-        Self { offsets, entries }
+        sort_rows(&offsets, &mut entries, watch)?;
+        Ok(Self { offsets, entries })
     }
 
     fn bucket(&self, low: u32) -> &[u64] {
@@ -178,23 +192,27 @@ impl Buckets {
 }
 
 /// Sorts each row of `entries`, halving the range of rows until it is worth a thread.
-fn sort_rows(offsets: &[u32], entries: &mut [u64]) {
+fn sort_rows(offsets: &[u32], entries: &mut [u64], watch: &Watch) -> Result<(), Cancelled> {
     let rows = offsets.len() - 1;
     if rows <= SORT_GRAIN {
+        watch.advance(entries.len() as u64)?;
         for pair in offsets.windows(2) {
             entries[(pair[0] - offsets[0]) as usize..(pair[1] - offsets[0]) as usize].sort_unstable();
         }
-        return;
+        return Ok(());
     }
     let middle = rows / 2;
     let (left, right) = entries.split_at_mut((offsets[middle] - offsets[0]) as usize);
-    rayon::join(|| sort_rows(&offsets[..=middle], left), || sort_rows(&offsets[middle..], right));
+    let halves =
+        rayon::join(|| sort_rows(&offsets[..=middle], left, watch), || sort_rows(&offsets[middle..], right, watch));
+    halves.0.and(halves.1)
 }
 
 /// The twin of every half-edge.
-fn pair(topology: &Topology, vertex_count: usize) -> Result<Vec<u32>, TopologyError> {
-    let buckets = Buckets::new(topology, vertex_count);
+fn pair(topology: &Topology, vertex_count: usize, watch: &Watch) -> Result<Vec<u32>, TopologyError> {
+    let buckets = Buckets::new(topology, vertex_count, watch)?;
     let twin = |h: u32| {
+        watch.at(h).ok()?;
         let mut between = buckets.between(topology.origin(h), topology.target(h));
         match (between.len(), between.next(), between.next()) {
             (1, ..) => Some(NONE),
@@ -203,6 +221,7 @@ fn pair(topology: &Topology, vertex_count: usize) -> Result<Vec<u32>, TopologyEr
         }
     };
     let twins: Option<Vec<u32>> = (0..topology.half_edge_count() as u32).into_par_iter().map(twin).collect();
+    watch.check()?;
     twins.ok_or_else(|| diagnose_edges(topology, &buckets))
 }
 
@@ -232,11 +251,12 @@ fn diagnose_edges(topology: &Topology, buckets: &Buckets) -> TopologyError {
 }
 
 /// Numbers edges by first occurrence; twins must be set.
-fn number_edges(topology: &mut Topology) {
+fn number_edges(topology: &mut Topology, watch: &Watch) -> Result<(), Cancelled> {
     // NONE is the highest index: a half-edge without twin is the first of its edge.
     let mut edges = Vec::with_capacity(topology.half_edge_count());
     let mut firsts = Vec::with_capacity(topology.half_edge_count() / 2 + 1);
     for (h, &twin) in (0..).zip(&topology.twins) {
+        watch.at(h)?;
         if h < twin {
             edges.push(firsts.len() as u32);
             firsts.push(h);
@@ -246,13 +266,15 @@ fn number_edges(topology: &mut Topology) {
     }
     topology.edges = edges;
     topology.edge_half_edges = firsts;
+    Ok(())
 }
 
 /// Chooses the half-edge of each vertex and counts its faces.
-fn find_vertex_half_edges(topology: &mut Topology, vertex_count: usize) {
+fn find_vertex_half_edges(topology: &mut Topology, vertex_count: usize, watch: &Watch) -> Result<(), Cancelled> {
     let mut starts = vec![NONE; vertex_count];
     let mut valences = vec![0_u32; vertex_count];
     for h in (0..topology.half_edge_count() as u32).rev() {
+        watch.at(h)?;
         let v = topology.origin(h) as usize;
         valences[v] += 1;
         let boundary_start = starts[v] != NONE && topology.twin(starts[v]) == NONE;
@@ -262,14 +284,18 @@ fn find_vertex_half_edges(topology: &mut Topology, vertex_count: usize) {
     }
     topology.vertex_half_edges = starts;
     topology.face_valences = valences;
+    Ok(())
 }
 
 /// The ring of a vertex must meet all its faces.
-fn check_fans(topology: &Topology) -> Result<(), TopologyError> {
+fn check_fans(topology: &Topology, watch: &Watch) -> Result<(), TopologyError> {
+    let is_one = |v: u32| topology.ring(v).count() == topology.face_valence(v) as usize;
     let bow_ties: Vec<u32> = (0..topology.vertex_count() as u32)
         .into_par_iter()
-        .filter(|&v| topology.ring(v).count() != topology.face_valence(v) as usize)
+        // Once it is cancelled, the rest is skipped.
+        .filter(|&v| watch.at(v).is_ok() && !is_one(v))
         .collect();
+    watch.check()?;
     if bow_ties.is_empty() {
         return Ok(());
     }

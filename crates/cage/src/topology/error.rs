@@ -4,6 +4,7 @@ use std::fmt;
 
 use crate::Listed;
 use crate::listed::numbered;
+use crate::progress::Cancelled;
 
 /// Why faces cannot be made into a [`Topology`](crate::Topology). Indices count from 0.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -48,6 +49,15 @@ pub enum TopologyError {
     /// Vertices whose faces form several fans that only touch there.
     #[error("not manifold, {counted} where separate fans of faces touch: {0}; split these vertices", counted = .0.count("bow-tie vertex"))]
     BowTie(Listed<Fans>),
+    /// Nothing is wrong, but an observer has ended the work. Never the result of [`Topology::build`](crate::Topology::build).
+    #[error("reading was cancelled")]
+    Cancelled,
+}
+
+impl From<Cancelled> for TopologyError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
 }
 
 impl TopologyError {
@@ -64,7 +74,7 @@ impl TopologyError {
                 edges.first().first().and_then(|e| e.faces.first().last().copied())
             }
             Self::BowTie(fans) => fans.first().first().map(|fans| fans.face),
-            Self::TooMany { .. } | Self::Offsets { .. } => None,
+            Self::TooMany { .. } | Self::Offsets { .. } | Self::Cancelled => None,
         }
     }
 }

@@ -10,11 +10,12 @@ mod ring;
 
 use std::ops::Range;
 
-pub(crate) use build::{check_rows, repeats};
+pub(crate) use build::{STEPS, build, check_rows, repeats};
 pub use error::{EdgeFaces, FaceCorner, Fans, TopologyError};
 pub use ring::Ring;
 
 use crate::NONE;
+use crate::progress::Watch;
 
 /// The adjacency of an oriented manifold mesh of polygons, with or without boundary.
 ///
@@ -45,7 +46,7 @@ impl Topology {
         face_offsets: impl Into<Vec<u32>>,
         face_vertices: impl Into<Vec<u32>>,
     ) -> Result<Self, TopologyError> {
-        build::build(vertex_count, face_offsets.into(), face_vertices.into())
+        build::build(vertex_count, face_offsets.into(), face_vertices.into(), &Watch::nobody())
     }
 
     /// Number of half-edges, which is the number of face corners.

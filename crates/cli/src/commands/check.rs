@@ -105,7 +105,7 @@ impl CheckArgs {
 
 /// Tries the proofs and prints what came of them.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
-    let input = job.input.read()?;
+    let input = job.input.read(global)?;
     let cases = job.cases(input.cage.bounds())?;
     let progress = Progress::new(global.quiet, (job.schemes.len() * cases.len()) as u64, "proving");
     with_engine(global, |engine: &Engine| {

@@ -91,7 +91,7 @@ impl ExportArgs {
 
 /// Draws into memory and writes the triangles.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
-    let input = job.input.read()?;
+    let input = job.input.read(global)?;
     job.warn_of_coarse_numbers(input.cage.bounds());
     let tessellation = job.tessellation.tessellation(&job.camera, input.cage.bounds())?;
     let desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary) };

@@ -1,5 +1,6 @@
 //! `inspect`: what a cage is made of.
 
+use crate::args::GlobalArgs;
 use crate::failure::{Failure, Verdict};
 use crate::input::{InputArgs, boundary_name};
 use crate::stdout;
@@ -72,8 +73,8 @@ struct SchemePlan {
 }
 
 /// Looks at the cage and prints what there is.
-pub(crate) fn run(job: &Job) -> Result<Verdict, Failure> {
-    let input = job.input.read_silently()?;
+pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
+    let input = job.input.read_silently(global)?;
     let findings = Findings::new(&input.cage, input.boundary);
     if job.json {
         stdout::print_json(&findings)?;

@@ -181,8 +181,8 @@ impl LookArgs {
 
 /// Draws and writes the picture.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
+    let input = job.input.read(global)?;
     let _progress = Progress::waiting(global.quiet, "drawing");
-    let input = job.input.read()?;
     let desc = job.desc(&input.cage)?;
     let (drawn, difference) = with_engine(global, |engine: &Engine| job.draw(engine, &input, &desc))?;
     let [width, height] = drawn.size;

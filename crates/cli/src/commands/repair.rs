@@ -1,5 +1,6 @@
 //! `repair`: a cage from a file that holds none.
 
+use crate::args::GlobalArgs;
 use crate::failure::{Failure, Verdict, WriteError};
 use crate::input;
 use crate::options::{Output, ReadArgs};
@@ -50,8 +51,8 @@ impl RepairArgs {
 }
 
 /// Reads, repairs and writes.
-pub(crate) fn run(job: &Job) -> Result<Verdict, Failure> {
-    let cage = input::read(&job.file, &job.desc)?;
+pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
+    let cage = input::read(&job.file, &job.desc, global)?;
     input::warn(&job.file, &cage);
     let path = &job.output.path;
     let written = whole_file::write(path, |out| write_obj(&cage, out).map_err(WriteError::from));

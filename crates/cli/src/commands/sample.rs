@@ -128,7 +128,7 @@ fn reference_is_exact(scheme: SchemeName) -> Failure {
 
 /// Samples and writes.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
-    let input = job.input.read()?;
+    let input = job.input.read(global)?;
     let drawn = input.cage.drawn_faces(input.boundary);
     job.input.require_faces(&input, &drawn)?;
     let places = job.places.read(&input, &drawn)?;

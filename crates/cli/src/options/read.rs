@@ -130,7 +130,7 @@ impl ReadArgs {
             memory_bytes: self.max_memory.map_or(default.memory_bytes, |bytes| bytes.0),
         };
         let gltf = GltfDesc { polygons: self.polygons()?, weld_tolerance: self.gltf_weld };
-        Ok(ReadDesc { gltf, repair, creases: self.creases(), limits })
+        Ok(ReadDesc { gltf, repair, creases: self.creases(), limits, observer: None })
     }
 
     fn polygons(&self) -> Result<PolygonRecovery, Failure> {

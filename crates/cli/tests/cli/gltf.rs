@@ -7,6 +7,11 @@ use tempfile::{TempDir, tempdir};
 
 /// A folder with `strip.gltf`: a row of two quads, each as two triangles, and then a triangle, beside its buffer.
 fn folder() -> TempDir {
+    folder_of(&[0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 6, 5])
+}
+
+/// The same with these triangles.
+fn folder_of(indices: &[u16]) -> TempDir {
     let points: [[f32; 3]; 7] = [
         [0.0, 0.0, 0.0],
         [1.0, 0.0, 0.0],
@@ -16,7 +21,6 @@ fn folder() -> TempDir {
         [2.0, 1.0, 0.0],
         [3.0, 0.5, 0.0],
     ];
-    let indices: [u16; 15] = [0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 6, 5];
     let mut bytes: Vec<u8> = points.as_flattened().iter().flat_map(|x| x.to_le_bytes()).collect();
     bytes.extend(indices.iter().flat_map(|i| i.to_le_bytes()));
     let json = json!({
@@ -25,11 +29,11 @@ fn folder() -> TempDir {
         "meshes": [{"primitives": [{"attributes": {"POSITION": 0}, "indices": 1}]}],
         "accessors": [
             {"bufferView": 0, "componentType": 5126, "count": 7, "type": "VEC3", "min": [0, 0, 0], "max": [3, 1, 0]},
-            {"bufferView": 1, "componentType": 5123, "count": 15, "type": "SCALAR"}
+            {"bufferView": 1, "componentType": 5123, "count": indices.len(), "type": "SCALAR"}
         ],
         "bufferViews": [
             {"buffer": 0, "byteLength": 84},
-            {"buffer": 0, "byteOffset": 84, "byteLength": 30}
+            {"buffer": 0, "byteOffset": 84, "byteLength": 2 * indices.len()}
         ],
         "buffers": [{"byteLength": bytes.len(), "uri": "strip.bin"}]
     });
@@ -85,4 +89,22 @@ fn vertices_within_a_distance_are_welded() {
     // Within 0.6, the tip of the triangle stays where it is, but not within 1.2.
     assert_eq!(inspect(&folder, &["--gltf-weld", "0.6"])["vertices"], 7);
     osculate(folder.path(), &["inspect", "strip.gltf", "--gltf-weld", "5"]).fails(3, "no faces");
+}
+
+#[test]
+fn what_is_no_mesh_is_repaired() {
+    // The last triangle is there a second time the other way round, and a fin stands on the side between the quads.
+    let folder = folder_of(&[0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 2, 6, 5, 5, 6, 2, 1, 4, 6]);
+    osculate(folder.path(), &["inspect", "strip.gltf"]).fails(3, "strip.gltf: not manifold");
+    let repair = ["repair", "strip.gltf", "--gltf-polygons", "none", "-o", "fixed.obj"];
+    let ran = osculate(folder.path(), &repair).exits(0);
+    let told =
+        "warning: strip.gltf: repaired: 1 copied face dropped: 5; 1 edge with more than two faces separated: 1-2; ";
+    assert!(ran.stderr.contains(told), "{}", ran.stderr);
+    let fixed = fs::read_to_string(folder.path().join("fixed.obj")).unwrap();
+    assert!(fixed.contains("o node 0\n"), "{fixed}");
+    assert_eq!(fixed.lines().filter(|line| line.starts_with("f ")).count(), 6);
+    let again = osculate(folder.path(), &["repair", "fixed.obj", "-o", "again.obj"]).exits(0);
+    assert_eq!(again.stderr, "");
+    assert_eq!(fs::read_to_string(folder.path().join("again.obj")).unwrap(), fixed);
 }

@@ -1,6 +1,6 @@
 //! `osculate repair`, and the options with which cages are read.
 
-use crate::support::osculate;
+use crate::support::{command, osculate};
 use serde_json::{Value, json};
 use std::fs;
 use tempfile::{TempDir, tempdir};
@@ -144,4 +144,24 @@ fn advice_has_hints() {
     assert_eq!((&found["advice"][0]["kind"], &found["advice"][0]["faces"]), (&json!("thin"), &json!([0])));
     let text = osculate(folder.path(), &["inspect", "thin.obj"]).exits(0).stdout;
     assert!(text.contains("\n  hint           cut the faces across"), "{text}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn an_interrupted_read_leaves_no_file() {
+    use std::io::Write;
+    use std::os::unix::process::ExitStatusExt;
+    use std::process::{Command, Stdio};
+    use std::time::Duration;
+    let folder = folder();
+    let mut child =
+        command(folder.path(), &["repair", "/dev/stdin", "-o", "out.obj"]).stdin(Stdio::piped()).spawn().unwrap();
+    // A file whose end does not come.
+    let mut file = child.stdin.take().unwrap();
+    file.write_all(b"OFF\n4 1 4\n0 0 0\n").unwrap();
+    std::thread::sleep(Duration::from_millis(50));
+    assert!(child.try_wait().unwrap().is_none(), "it waits for the rest");
+    assert!(Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().signal(), Some(2));
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }

@@ -14,6 +14,7 @@ use glam::{DVec2, DVec3};
 
 use crate::Listed;
 use crate::listed::plural;
+use crate::progress::{Cancelled, Watch};
 
 /// Which signs of polygons are believed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -158,16 +159,26 @@ pub(super) struct Run<'a> {
     pub(super) flipped: bool,
 }
 
+/// How often [`recover`] looks at each triangle, about.
+pub(super) const STEPS: usize = 4;
+
 /// Adds the faces of a run.
-pub(super) fn recover(run: &Run, points: &Points, recovery: PolygonRecovery, faces: &mut Faces) {
+pub(super) fn recover(
+    run: &Run,
+    points: &Points,
+    recovery: PolygonRecovery,
+    watch: &Watch,
+    faces: &mut Faces,
+) -> Result<(), Cancelled> {
     let first = faces.count();
+    watch.advance(run.triangles.len() as u64)?;
     if run.marked && recovery.marked {
         marked::add(run.triangles, points, faces);
     } else {
         let whole: Vec<[u32; 3]> = run.triangles.iter().copied().filter(|t| points.is_whole(t)).collect();
         faces.dropped += run.triangles.len() - whole.len();
         faces.report.triangles += whole.len();
-        match find_pairs(&whole, points, recovery) {
+        match find_pairs(&whole, points, recovery, watch)? {
             Some((pairs, source)) => add_pairs(&whole, &pairs, source, faces),
             None => whole.iter().for_each(|triangle| faces.push(triangle, FaceSource::Triangle)),
         }
@@ -175,21 +186,30 @@ pub(super) fn recover(run: &Run, points: &Points, recovery: PolygonRecovery, fac
     if run.flipped {
         faces.reverse_from(first);
     }
+    Ok(())
 }
 
+/// Pairs of triangles, if they are to be believed; or the end.
+type Found<T> = Result<Option<T>, Cancelled>;
+
 /// The quads that triangles make, and what says so.
-fn find_pairs(triangles: &[[u32; 3]], points: &Points, recovery: PolygonRecovery) -> Option<(Vec<Pair>, FaceSource)> {
-    let by_order = if recovery.order { order::pairs(triangles, points) } else { None };
+fn find_pairs(
+    triangles: &[[u32; 3]],
+    points: &Points,
+    recovery: PolygonRecovery,
+    watch: &Watch,
+) -> Found<(Vec<Pair>, FaceSource)> {
+    let by_order = if recovery.order { order::pairs(triangles, points, watch)? } else { None };
     let is_all = |pairs: &Vec<Pair>| 2 * pairs.len() == triangles.len();
     if by_order.as_ref().is_some_and(is_all) || !recovery.shape {
-        return Some((by_order?, FaceSource::Order));
+        return Ok(by_order.map(|pairs| (pairs, FaceSource::Order)));
     }
-    let by_shape = shape::pairs(triangles, points).map(|pairs| (pairs, FaceSource::Shape));
-    let Some(by_order) = by_order else { return by_shape };
+    let by_shape = shape::pairs(triangles, points, watch)?.map(|pairs| (pairs, FaceSource::Shape));
+    let Some(by_order) = by_order else { return Ok(by_shape) };
     // Strips look like halves in a row that some do not fit into. Their quads leave nothing over, and are no worse but for rounding.
     let least = mean_quality(&by_order) - 1e-9;
     let is_better = |(pairs, _): &(Vec<Pair>, _)| is_all(pairs) && mean_quality(pairs) >= least;
-    Some(by_shape.filter(is_better).unwrap_or((by_order, FaceSource::Order)))
+    Ok(Some(by_shape.filter(is_better).unwrap_or((by_order, FaceSource::Order))))
 }
 
 fn mean_quality(pairs: &[Pair]) -> f64 {

@@ -4,7 +4,8 @@
 //! programme over the list); it is believed if one or two patterns of corners, as an exporter makes them that cuts along the shorter
 //! diagonal, cover most triangles.
 
-use super::{Pair, Points};
+use super::{Found, Pair, Points};
+use crate::progress::Watch;
 
 /// Part of the triangles that must be in pairs of the exporter's patterns.
 const ENOUGH: f64 = 0.75;
@@ -16,22 +17,24 @@ const PRESENCE: f64 = 0.25;
 const GOOD: f64 = 0.6;
 
 /// The pairs of an exporter's order, if there is one.
-pub(super) fn pairs(triangles: &[[u32; 3]], points: &Points) -> Option<Vec<Pair>> {
-    let all: Vec<Option<Pair>> = (1..triangles.len() as u32).map(|t| points.pair(triangles, [t - 1, t])).collect();
+pub(super) fn pairs(triangles: &[[u32; 3]], points: &Points, watch: &Watch) -> Found<Vec<Pair>> {
+    let link = |t: u32| watch.at(t).map(|()| points.pair(triangles, [t - 1, t]));
+    let all: Vec<Option<Pair>> = (1..triangles.len() as u32).map(link).collect::<Result<_, _>>()?;
     let mut links: Vec<Option<Pair>> = all.iter().map(|link| link.filter(|pair| pair.quality > 0.0)).collect();
     drop_fans(&mut links, triangles, points);
     let patterns = two_most_frequent(&best(&links));
     let fits = |link: &Option<Pair>| link.filter(|pair| patterns.contains(&pair.pattern));
+    watch.look()?;
     let chosen = best(&links.iter().map(fits).collect::<Vec<_>>());
     let covered = 2.0 * chosen.len() as f64 / triangles.len() as f64;
     if chosen.is_empty() || covered < ENOUGH {
-        return None;
+        return Ok(None);
     }
     // A mesh of nothing but quads may have concave ones and folded ones, for which most others leave room.
     let aligned = chosen.iter().filter(|pair| pair.triangles[0].is_multiple_of(2)).count();
     let only_quads = triangles.len().is_multiple_of(2) && aligned as f64 >= ALIGNED * chosen.len() as f64;
     let halves: Option<Vec<Pair>> = all.iter().step_by(2).map(fits).collect();
-    Some(halves.filter(|_| only_quads).unwrap_or(chosen))
+    Ok(Some(halves.filter(|_| only_quads).unwrap_or(chosen)))
 }
 
 /// Drops poor pairs from rows of four and more triangles around one vertex.

@@ -7,7 +7,8 @@
 use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap, HashSet};
 
-use super::{Pair, Points};
+use super::{Found, Pair, Points};
+use crate::progress::{Cancelled, Watch};
 
 /// Quads below this quality are never made.
 const LEAST: f64 = 0.3;
@@ -18,14 +19,14 @@ const LEAD: f64 = 0.24;
 const ENOUGH: f64 = 0.6;
 
 /// The pairs of good shape, if the triangles look like halves of quads.
-pub(super) fn pairs(triangles: &[[u32; 3]], points: &Points) -> Option<Vec<Pair>> {
-    let mut matching = Matching::new(triangles, points);
-    matching.grow();
-    matching.augment();
+pub(super) fn pairs(triangles: &[[u32; 3]], points: &Points, watch: &Watch) -> Found<Vec<Pair>> {
+    let mut matching = Matching::new(triangles, points, watch)?;
+    matching.grow(watch)?;
+    matching.augment(watch)?;
     let pairs = matching.pairs();
     let covered = 2.0 * pairs.len() as f64 / triangles.len() as f64;
     let lead = pairs.iter().map(|pair| matching.lead(pair)).sum::<f64>() / pairs.len().max(1) as f64;
-    (covered >= ENOUGH && lead >= LEAD).then_some(pairs)
+    Ok((covered >= ENOUGH && lead >= LEAD).then_some(pairs))
 }
 
 /// A set of candidates of which no two share a triangle, in the making.
@@ -43,7 +44,7 @@ struct Matching<'a> {
 }
 
 impl<'a> Matching<'a> {
-    fn new(triangles: &[[u32; 3]], points: &'a Points<'a>) -> Self {
+    fn new(triangles: &[[u32; 3]], points: &'a Points<'a>, watch: &Watch) -> Result<Self, Cancelled> {
         let edges = |triangle: &[u32; 3]| {
             let [a, b, c] = triangle.map(|point| points.vertex(point));
             [[a, b], [b, c], [c, a]]
@@ -51,6 +52,7 @@ impl<'a> Matching<'a> {
         let mut by_edge = HashMap::new();
         let mut spare: HashMap<u32, u32> = HashMap::new();
         for (t, triangle) in (0..).zip(triangles) {
+            watch.pulse(u64::from(t))?;
             for edge in edges(triangle) {
                 // An edge that two triangles run in the same direction is refused later on.
                 by_edge.entry(edge).or_insert(t);
@@ -65,6 +67,7 @@ impl<'a> Matching<'a> {
         let mut candidates = Vec::new();
         let mut of_triangle = vec![Vec::new(); triangles.len()];
         for (t, triangle) in (0..).zip(triangles) {
+            watch.at(t)?;
             let across = edges(triangle).map(|[a, b]| by_edge.get(&[b, a]).copied());
             for u in across.into_iter().flatten().filter(|&u| u > t) {
                 let Some(pair) = points.pair(triangles, [t, u]).filter(|pair| pair.quality >= LEAST) else { continue };
@@ -73,7 +76,7 @@ impl<'a> Matching<'a> {
             }
         }
         let chosen = vec![None; triangles.len()];
-        Self { points, candidates, of_triangle, chosen, by_edge, spare }
+        Ok(Self { points, candidates, of_triangle, chosen, by_edge, spare })
     }
 
     fn is_free(&self, candidate: u32) -> bool {
@@ -112,10 +115,13 @@ impl<'a> Matching<'a> {
     }
 
     /// Chooses candidates, the most urgent first.
-    fn grow(&mut self) {
+    fn grow(&mut self, watch: &Watch) -> Result<(), Cancelled> {
         let urgency = |(c, pair): (u32, &Pair)| Urgent { urgency: pair.quality, candidate: c };
         let mut open: BinaryHeap<Urgent> = (0..).zip(&self.candidates).map(urgency).collect();
+        let mut turns = 0;
         while let Some(Urgent { candidate, .. }) = open.pop() {
+            turns += 1;
+            watch.pulse(turns)?;
             if !self.can_choose(candidate) {
                 continue;
             }
@@ -130,6 +136,7 @@ impl<'a> Matching<'a> {
                 }
             }
         }
+        Ok(())
     }
 
     /// How straight the sides of a quad beyond the edge `[b, a]` go on from the sides c-b and d-a: the mean cosine, at least 0.
@@ -146,8 +153,9 @@ impl<'a> Matching<'a> {
     }
 
     /// Gives triangles that are left a partner by taking it from one that finds another among those that are left.
-    fn augment(&mut self) {
+    fn augment(&mut self, watch: &Watch) -> Result<(), Cancelled> {
         for t in 0..self.chosen.len() {
+            watch.at(t as u32)?;
             for k in 0..self.of_triangle[t].len() {
                 let first = self.of_triangle[t][k];
                 if self.chosen[t].is_some() || self.try_chain(t as u32, first) {
@@ -155,6 +163,7 @@ impl<'a> Matching<'a> {
                 }
             }
         }
+        Ok(())
     }
 
     fn try_chain(&mut self, t: u32, first: u32) -> bool {
