@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what building and running need and this machine lacks: Vulkan loader, a Vulkan driver, shaderc's libraries and a C++
-# compiler; with --tests also Mesa's software driver and the validation layers. Does nothing, quickly, when all is there.
+# compiler; with --tests also Mesa's software driver, the validation layers and Xvfb, an X server without a screen. Does
+# nothing, quickly, when all is there.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 
@@ -41,6 +42,7 @@ missing_packages() {
     if $tests; then
         has_driver 'lvp_icd*.json' || echo mesa-vulkan-drivers
         has_layer khronos_validation || echo vulkan-validationlayers
+        have Xvfb || echo xvfb
     else
         has_driver '*.json' || echo mesa-vulkan-drivers
     fi

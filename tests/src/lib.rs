@@ -93,6 +93,7 @@ fn device() -> Device {
         select: std::env::var("OSCULATE_DEVICE").ok(),
         validation: true,
         application: "osculate-tests".to_owned(),
+        ..DeviceDesc::default()
     };
     match Device::new(&desc) {
         Ok(device) => device,

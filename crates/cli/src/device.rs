@@ -16,8 +16,12 @@ pub(crate) fn with_engine<T>(
     global: &GlobalArgs,
     work: impl FnOnce(&Engine) -> Result<T, Failure>,
 ) -> Result<T, Failure> {
-    let desc =
-        DeviceDesc { select: global.device.clone(), validation: global.validation, application: "osculate".to_owned() };
+    let desc = DeviceDesc {
+        select: global.device.clone(),
+        validation: global.validation,
+        application: "osculate".to_owned(),
+        ..DeviceDesc::default()
+    };
     let device = Device::new(&desc)?;
     let info = device.info();
     tracing::info!("device {}: {}, {} {}", info.index, info.name, info.driver_name, info.driver_info);

@@ -8,11 +8,12 @@ use std::{
 use ash::{ext, khr, vk};
 
 use crate::{
-    DeviceError, DeviceInfo, GpuError, MessageLog,
+    DeviceError, DeviceInfo, GpuError, MessageLog, WindowSystem,
     info::{CacheIdentity, Physical, enumerate},
     instance::Instance,
     memory::Memory,
     owned::{Owned, RawDevice},
+    present::WindowFunctions,
     select::choose,
     submission::Commands,
 };
@@ -26,12 +27,14 @@ pub struct DeviceDesc {
     pub validation: bool,
     /// Name of the program, for drivers and tools.
     pub application: String,
+    /// The system whose windows the device draws to, for [`Device::presenter`]; `None` leaves out what windows need.
+    pub windows: Option<WindowSystem>,
 }
 
 /// Lists the devices of this machine, those that cannot be opened (see [`DeviceInfo::missing`]) among them.
 pub fn devices() -> Result<Vec<DeviceInfo>, DeviceError> {
-    let instance = Instance::new("osculate", false)?;
-    Ok(enumerate(&instance.raw)?.into_iter().map(|physical| physical.info).collect())
+    let instance = Instance::new("osculate", false, None)?;
+    Ok(enumerate(&instance.raw, false)?.into_iter().map(|physical| physical.info).collect())
 }
 
 /// An open device. Clones share it; it closes when the last clone and the last object made from it are gone.
@@ -53,6 +56,7 @@ pub(crate) struct Shared {
     pub(crate) push_descriptor: khr::push_descriptor::Device,
     /// ash 0.38 has no methods for this extension, only its function pointers.
     pub(crate) transform_feedback: Option<ext::transform_feedback::Device>,
+    pub(crate) windows: Option<WindowFunctions>,
     pub(crate) raw: Arc<RawDevice>,
     pub(crate) info: DeviceInfo,
     pub(crate) cache_identity: CacheIdentity,
@@ -70,16 +74,20 @@ pub(crate) struct Queue {
     pub(crate) submitted: u64,
     /// Command buffers that no submission uses.
     pub(crate) idle: Vec<Commands>,
+    /// Binary semaphores that the next submission waits for, and with it all later ones: acquired images of windows. Their
+    /// [`Presenter`](crate::Presenter) keeps them alive and sees to it that they are waited for.
+    pub(crate) waits: Vec<vk::Semaphore>,
 }
 
 impl Device {
     /// Opens a device.
     pub fn new(desc: &DeviceDesc) -> Result<Self, DeviceError> {
-        let instance = Instance::new(&desc.application, desc.validation)?;
-        let mut devices = enumerate(&instance.raw)?;
+        let instance = Instance::new(&desc.application, desc.validation, desc.windows.as_ref())?;
+        let presents = desc.windows.is_some();
+        let mut devices = enumerate(&instance.raw, presents)?;
         let infos: Vec<DeviceInfo> = devices.iter().map(|physical| physical.info.clone()).collect();
         let physical = devices.swap_remove(choose(&infos, desc.select.as_deref())?);
-        let raw = Arc::new(RawDevice::new(Arc::clone(&instance), create_device(&instance, &physical)?));
+        let raw = Arc::new(RawDevice::new(Arc::clone(&instance), create_device(&instance, &physical, presents)?));
         // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { raw.raw.get_device_queue(physical.queue_family, 0) };
         raw.set_name(queue, "queue");
@@ -89,13 +97,20 @@ impl Device {
             })?;
         tracing::debug!(device = physical.info.name, driver = physical.info.driver_info, "opened device");
         let shared = Shared {
-            queue: Mutex::new(Queue { raw: queue, family: physical.queue_family, submitted: 0, idle: Vec::new() }),
+            queue: Mutex::new(Queue {
+                raw: queue,
+                family: physical.queue_family,
+                submitted: 0,
+                idle: Vec::new(),
+                waits: Vec::new(),
+            }),
             cache: RwLock::new(empty_cache(&raw)?),
             timeline: create_timeline(&raw)?,
             memory,
             push_descriptor: khr::push_descriptor::Device::new(&instance.raw, &raw.raw),
             transform_feedback: (physical.info.features.transform_feedback)
                 .then(|| ext::transform_feedback::Device::new(&instance.raw, &raw.raw)),
+            windows: desc.windows.clone().map(|system| WindowFunctions::new(system, &instance, &raw)),
             raw,
             info: physical.info,
             cache_identity: physical.cache_identity,
@@ -167,7 +182,7 @@ impl std::fmt::Debug for Device {
 
 /// Creates the logical device with the required features and every one that [`DeviceInfo::features`] lists. What shaders may
 /// use beyond Vulkan's core is also held in `reflect`, which refuses the rest.
-fn create_device(instance: &Instance, physical: &Physical) -> Result<ash::Device, DeviceError> {
+fn create_device(instance: &Instance, physical: &Physical, presents: bool) -> Result<ash::Device, DeviceError> {
     let has = physical.info.features;
     let core = vk::PhysicalDeviceFeatures::default()
         .tessellation_shader(true)
@@ -179,7 +194,7 @@ fn create_device(instance: &Instance, physical: &Physical) -> Result<ash::Device
     let mut v13 =
         vk::PhysicalDeviceVulkan13Features::default().dynamic_rendering(true).synchronization2(true).maintenance4(true);
     let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default().transform_feedback(true);
-    let extensions = extension_names(physical);
+    let extensions = extension_names(physical, presents);
     let priorities = [1.0];
     let queues =
         [vk::DeviceQueueCreateInfo::default().queue_family_index(physical.queue_family).queue_priorities(&priorities)];
@@ -197,10 +212,11 @@ fn create_device(instance: &Instance, physical: &Physical) -> Result<ash::Device
         .map_err(|result| DeviceError::Vulkan { operation: "opening the Vulkan device", result })
 }
 
-fn extension_names(physical: &Physical) -> Vec<*const c_char> {
-    let wanted: [(bool, &CStr); 3] = [
+fn extension_names(physical: &Physical, presents: bool) -> Vec<*const c_char> {
+    let wanted: [(bool, &CStr); 4] = [
         (physical.extensions.push_descriptor, khr::push_descriptor::NAME),
         (physical.info.features.transform_feedback, ext::transform_feedback::NAME),
+        (presents, khr::swapchain::NAME),
         (physical.extensions.portability_subset, khr::portability_subset::NAME),
     ];
     wanted.into_iter().filter(|(has, _)| *has).map(|(_, name)| name.as_ptr()).collect()

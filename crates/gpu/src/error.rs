@@ -42,6 +42,12 @@ pub enum DeviceError {
         "the Vulkan validation layer is not installed: install it (package vulkan-validationlayers) or do without validation"
     )]
     NoValidationLayer,
+    /// Vulkan shows nothing in the windows of this system.
+    #[error("Vulkan cannot draw to windows here: no driver has {missing}")]
+    NoPresentation {
+        /// The instance extension that is missing, or what is wrong with the windows.
+        missing: String,
+    },
     /// The driver or the loader refused a call.
     #[error("{operation} failed: {result}")]
     Vulkan {
@@ -69,6 +75,20 @@ pub enum GpuError {
     DeviceLost {
         /// What was tried.
         during: String,
+    },
+    /// A window cannot be drawn to.
+    #[error("window {window:?} cannot be drawn to: {reason}")]
+    Window {
+        /// Name of the presenter.
+        window: String,
+        /// Why not.
+        reason: String,
+    },
+    /// An image of a window was used while it belongs to the window.
+    #[error("image {image:?} belongs to its window: acquire a frame, and use its image until it is presented")]
+    NotAcquired {
+        /// Name of the image.
+        image: String,
     },
     /// The driver refused a call.
     #[error("{operation} failed: {result}")]

@@ -82,6 +82,12 @@ impl Format {
         }
     }
 
+    /// The colour format that Vulkan calls so, if windows may have it.
+    pub(crate) fn of_window(raw: vk::Format) -> Option<Self> {
+        let all = [Self::Bgra8Srgb, Self::Rgba8Srgb, Self::Bgra8Unorm, Self::Rgba8Unorm, Self::Rgba16Float];
+        all.into_iter().find(|format| format.raw() == raw)
+    }
+
     pub(crate) fn aspect(self) -> vk::ImageAspectFlags {
         if self.is_depth() { vk::ImageAspectFlags::DEPTH } else { vk::ImageAspectFlags::COLOR }
     }

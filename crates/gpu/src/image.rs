@@ -8,7 +8,10 @@ use std::sync::{
 use ash::vk;
 use gpu_allocator::MemoryLocation;
 
-use crate::{Device, Format, GpuError, Rect, format::sample_flag, memory::Block, owned::Owned, resource::ResourceId};
+use crate::{
+    Device, Format, GpuError, Rect, format::sample_flag, memory::Block, owned::Owned, present::Swapchain,
+    resource::ResourceId,
+};
 
 bitflags::bitflags! {
     /// What an image is for. Something must fill it, and more than copies must use it.
@@ -78,10 +81,21 @@ struct Inner {
     device: Device,
 }
 
-/// An image and its memory, in order of destruction.
-struct Texels {
-    raw: Owned<vk::Image>,
-    _block: Block,
+/// Where the texels are.
+enum Texels {
+    /// In an image of its own, in memory of its own; in order of destruction.
+    Own { raw: Owned<vk::Image>, _block: Block },
+    /// In an image of a window, which lives as long as its swapchain.
+    Window { raw: vk::Image, _swapchain: Arc<Swapchain> },
+}
+
+impl Texels {
+    fn raw(&self) -> vk::Image {
+        match self {
+            Self::Own { raw, .. } => raw.raw,
+            Self::Window { raw, .. } => *raw,
+        }
+    }
 }
 
 /// A rectangle of texels of one level of an image, for copies.
@@ -100,7 +114,23 @@ impl Device {
     pub fn image(&self, desc: &ImageDesc<'_>) -> Result<Image, GpuError> {
         let samples = self.check_image(desc)?;
         let texels = self.texels(desc, samples)?;
-        let raw = texels.raw.raw;
+        self.wrap(desc, texels, vk::ImageLayout::UNDEFINED)
+    }
+
+    /// An image of a window's swapchain, which it keeps alive. It belongs to the window until it is acquired.
+    pub(crate) fn window_image(
+        &self,
+        desc: &ImageDesc<'_>,
+        raw: vk::Image,
+        swapchain: &Arc<Swapchain>,
+    ) -> Result<Image, GpuError> {
+        self.shared.raw.set_name(raw, desc.name);
+        self.wrap(desc, Texels::Window { raw, _swapchain: Arc::clone(swapchain) }, Image::WITH_WINDOW)
+    }
+
+    /// The image around texels in a layout.
+    fn wrap(&self, desc: &ImageDesc<'_>, texels: Texels, layout: vk::ImageLayout) -> Result<Image, GpuError> {
+        let raw = texels.raw();
         let several = desc.levels > 1;
         let inner = Inner {
             view: self.view(raw, desc, 1)?,
@@ -114,7 +144,7 @@ impl Device {
             levels: desc.levels,
             usage: desc.usage,
             features: self.format_features(desc.format),
-            layout: AtomicI32::new(vk::ImageLayout::UNDEFINED.as_raw()),
+            layout: AtomicI32::new(layout.as_raw()),
             device: self.clone(),
         };
         Ok(Image { inner: Arc::new(inner) })
@@ -141,10 +171,10 @@ impl Device {
         let block = self.shared.memory.allocate(desc.name, requirements, MemoryLocation::GpuOnly, false)?;
         let (memory, offset) = block.place();
         // SAFETY: image and memory are of this device, the memory meets the image's requirements and outlives it, since
-        // `Texels` drops it later.
+        // `Texels::Own` drops it later.
         unsafe { self.raw().bind_image_memory(raw.raw, memory, offset) }
             .map_err(|result| GpuError::from_vulkan(format!("binding memory to image {:?}", desc.name), result))?;
-        Ok(Texels { raw, _block: block })
+        Ok(Texels::Own { raw, _block: block })
     }
 
     /// Whether the device takes such an image; the flag for its samples.
@@ -220,6 +250,9 @@ impl Device {
 }
 
 impl Image {
+    /// The layout of an image that belongs to its window: it was presented, or not yet acquired.
+    pub(crate) const WITH_WINDOW: vk::ImageLayout = vk::ImageLayout::PRESENT_SRC_KHR;
+
     /// Most levels of an image of this size: down to a single texel.
     pub fn full_levels(size: [u32; 2]) -> u32 {
         u32::BITS - size[0].max(size[1]).leading_zeros()
@@ -276,7 +309,7 @@ impl Image {
     }
 
     pub(crate) fn raw(&self) -> vk::Image {
-        self.inner.texels.raw.raw
+        self.inner.texels.raw()
     }
 
     /// Level 0.
@@ -315,6 +348,19 @@ impl Image {
 
     pub(crate) fn layout(&self) -> vk::ImageLayout {
         vk::ImageLayout::from_raw(self.inner.layout.load(Ordering::Acquire))
+    }
+
+    /// Whether what is in it is undefined.
+    pub(crate) fn is_blank(&self) -> bool {
+        [vk::ImageLayout::UNDEFINED, Self::WITH_WINDOW].contains(&self.layout())
+    }
+
+    /// Fails while the image belongs to its window. Called with the queue locked.
+    pub(crate) fn check_acquired(&self) -> Result<(), GpuError> {
+        if self.layout() == Self::WITH_WINDOW {
+            return Err(GpuError::NotAcquired { image: self.name().to_owned() });
+        }
+        Ok(())
     }
 
     /// Remembers the layout after a submission. Called with the queue locked.

@@ -185,6 +185,7 @@ pub(crate) struct Physical {
 pub(crate) struct Extensions {
     pub(crate) push_descriptor: bool,
     pub(crate) transform_feedback: bool,
+    pub(crate) swapchain: bool,
     pub(crate) portability_subset: bool,
 }
 
@@ -196,16 +197,21 @@ pub(crate) struct CacheIdentity {
     pub(crate) uuid: [u8; vk::UUID_SIZE],
 }
 
-/// Lists the devices of an instance.
-pub(crate) fn enumerate(instance: &ash::Instance) -> Result<Vec<Physical>, DeviceError> {
+/// Lists the devices of an instance; with `presents` they must be able to draw to windows.
+pub(crate) fn enumerate(instance: &ash::Instance, presents: bool) -> Result<Vec<Physical>, DeviceError> {
     // SAFETY: the instance is alive.
     let devices = unsafe { instance.enumerate_physical_devices() }
         .map_err(|result| DeviceError::Vulkan { operation: "listing the Vulkan devices", result })?;
-    devices.into_iter().enumerate().map(|(index, raw)| examine(instance, index, raw)).collect()
+    devices.into_iter().enumerate().map(|(index, raw)| examine(instance, index, raw, presents)).collect()
 }
 
 /// Finds out what one device is and can do.
-fn examine(instance: &ash::Instance, index: usize, raw: vk::PhysicalDevice) -> Result<Physical, DeviceError> {
+fn examine(
+    instance: &ash::Instance,
+    index: usize,
+    raw: vk::PhysicalDevice,
+    presents: bool,
+) -> Result<Physical, DeviceError> {
     let extensions = find_extensions(instance, raw)?;
     // SAFETY: `raw` comes from this instance.
     let version = unsafe { instance.get_physical_device_properties(raw) }.api_version;
@@ -217,6 +223,9 @@ fn examine(instance: &ash::Instance, index: usize, raw: vk::PhysicalDevice) -> R
     }
     if !extensions.push_descriptor {
         missing.push("VK_KHR_push_descriptor".to_owned());
+    }
+    if presents && !extensions.swapchain {
+        missing.push("VK_KHR_swapchain, which windows need".to_owned());
     }
     let queue_family = find_queue_family(instance, raw);
     if queue_family.is_none() {
@@ -254,6 +263,7 @@ fn find_extensions(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Result<
     Ok(Extensions {
         push_descriptor: has(khr::push_descriptor::NAME),
         transform_feedback: has(ext::transform_feedback::NAME),
+        swapchain: has(khr::swapchain::NAME),
         portability_subset: has(khr::portability_subset::NAME),
     })
 }

@@ -7,7 +7,7 @@ use std::{
 
 use ash::{ext, khr, vk};
 
-use crate::{DeviceError, MessageLog};
+use crate::{DeviceError, MessageLog, WindowSystem};
 
 const VALIDATION_LAYER: &CStr = c"VK_LAYER_KHRONOS_validation";
 
@@ -19,12 +19,17 @@ pub(crate) struct Instance {
     pub(crate) debug_utils: bool,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     pub(crate) messages: MessageLog,
-    entry: ash::Entry,
+    pub(crate) entry: ash::Entry,
 }
 
 impl Instance {
-    /// Opens the loader and makes an instance, with core and synchronization validation if `validation` is set.
-    pub(crate) fn new(application: &str, validation: bool) -> Result<Arc<Self>, DeviceError> {
+    /// Opens the loader and makes an instance, with core and synchronization validation if `validation` is set, and with the
+    /// extensions that windows need.
+    pub(crate) fn new(
+        application: &str,
+        validation: bool,
+        windows: Option<&WindowSystem>,
+    ) -> Result<Arc<Self>, DeviceError> {
         // SAFETY: loading the Vulkan loader runs its initialisers, which it is made for.
         let entry =
             unsafe { ash::Entry::load() }.map_err(|error| DeviceError::NoLoader { reason: error.to_string() })?;
@@ -44,6 +49,12 @@ impl Instance {
         let portability = has(khr::portability_enumeration::NAME);
         if portability {
             names.push(khr::portability_enumeration::NAME.as_ptr());
+        }
+        for name in windows.into_iter().flat_map(WindowSystem::extensions) {
+            if !has(name) {
+                return Err(DeviceError::NoPresentation { missing: name.to_string_lossy().into_owned() });
+            }
+            names.push(name.as_ptr());
         }
         let layers: Vec<*const c_char> = if validation { vec![VALIDATION_LAYER.as_ptr()] } else { Vec::new() };
 

@@ -5,7 +5,7 @@ use std::{collections::HashMap, sync::MutexGuard};
 use ash::vk;
 
 use crate::{
-    Buffer, Device, GpuError, Recording, Report,
+    Buffer, Device, GpuError, Image, Recording, Report,
     barrier::{Barriers, Transition, derive},
     device::Queue,
     execute::Encoder,
@@ -132,6 +132,7 @@ impl Prepared {
 
     /// Commands that bring images into the layouts in which a run finds them, where others have left them in other ones.
     fn arrive(&self, queue: &mut Queue) -> Result<Option<Commands>, GpuError> {
+        self.kept.images.values().try_for_each(Image::check_acquired)?;
         let moved = self.kept.images.iter().filter(|(id, image)| image.layout() != self.layouts[id]);
         let images: Vec<Transition> =
             moved.map(|(id, image)| Transition::between(*id, image.layout(), self.layouts[id])).collect();

@@ -5,15 +5,16 @@
 //! included, and by a submission that uses the buffer from before the GPU can start until its timeline value is noted: so the
 //! host never misses work that is on its way. The queue's lock makes submissions one sequence. They are taken in one order:
 //! first buffers, ascending by id, then the queue. The host's side takes one buffer and nothing else; the GPU needs no lock
-//! to get on. Hence nobody waits in a circle, and no thread that waits for the GPU holds the queue. The other locks
-//! (allocator, pipeline cache, messages) are innermost: under them no buffer and no queue is locked.
+//! to get on. Hence nobody waits in a circle, and no thread that waits for the GPU holds the queue, but for a
+//! presenter that replaces its swapchain. The other locks (allocator, pipeline cache, messages) are innermost: under them no
+//! buffer and no queue is locked.
 
 use std::{collections::HashMap, sync::MutexGuard};
 
 use ash::vk;
 
 use crate::{
-    Buffer, Device, GpuError, Recording, Report,
+    Buffer, Device, GpuError, Image, Recording, Report,
     barrier::derive,
     device::Queue,
     execute::Encoder,
@@ -55,6 +56,7 @@ impl Device {
         // used and updated in the order of submissions.
         let mut last_uses = lock_in_order(plan.kept.buffers.values());
         let mut queue = self.queue();
+        plan.kept.images.values().try_for_each(Image::check_acquired)?;
         let layouts: HashMap<ResourceId, _> =
             plan.kept.images.iter().map(|(id, image)| (*id, image.layout())).collect();
         let (barriers, layouts) = derive(plan.steps.iter().map(|step| step.uses.as_slice()), &layouts);
@@ -135,17 +137,34 @@ impl Device {
         queue: &mut Queue,
         buffers: &[vk::CommandBufferSubmitInfo<'_>],
     ) -> Result<u64, GpuError> {
+        self.enqueue_and_signal(queue, buffers, None)
+    }
+
+    /// As [`Self::enqueue`]; signals a binary semaphore too, when everything so far is done. Waits for what the queue is to
+    /// wait for.
+    pub(crate) fn enqueue_and_signal(
+        &self,
+        queue: &mut Queue,
+        buffers: &[vk::CommandBufferSubmitInfo<'_>],
+        done: Option<vk::Semaphore>,
+    ) -> Result<u64, GpuError> {
         let value = queue.submitted + 1;
-        let signals = [vk::SemaphoreSubmitInfo::default()
-            .semaphore(self.shared.timeline.raw)
-            .value(value)
-            .stage_mask(vk::PipelineStageFlags2::ALL_COMMANDS)];
-        let info = vk::SubmitInfo2::default().command_buffer_infos(buffers).signal_semaphore_infos(&signals);
+        let stages = vk::PipelineStageFlags2::ALL_COMMANDS;
+        let semaphore = |raw| vk::SemaphoreSubmitInfo::default().semaphore(raw).stage_mask(stages);
+        let waits: Vec<_> = queue.waits.iter().copied().map(semaphore).collect();
+        let timeline = semaphore(self.shared.timeline.raw).value(value);
+        let signals: Vec<_> = std::iter::once(timeline).chain(done.map(semaphore)).collect();
+        let info = vk::SubmitInfo2::default()
+            .command_buffer_infos(buffers)
+            .wait_semaphore_infos(&waits)
+            .signal_semaphore_infos(&signals);
         // SAFETY: the command buffers are complete; the lock on `queue` makes the access exclusive; what the commands use stays
-        // alive as our callers promise; the value is greater than all before.
+        // alive as our callers promise; the value is greater than all before. The presenter that put a semaphore into `waits`
+        // keeps it, and its signal is on its way.
         unsafe { self.raw().queue_submit2(queue.raw, &[info], vk::Fence::null()) }
             .map_err(|result| GpuError::from_vulkan("submitting", result))?;
         queue.submitted = value;
+        queue.waits.clear();
         Ok(value)
     }
 }

@@ -230,7 +230,7 @@ impl Planner<'_> {
 
     /// Whether nothing has filled the image yet.
     pub(super) fn is_blank(&self, image: &Image) -> bool {
-        image.layout() == vk::ImageLayout::UNDEFINED && !self.kept.images.contains_key(&image.id())
+        image.is_blank() && !self.kept.images.contains_key(&image.id())
     }
 
     pub(super) fn touch_buffer(&mut self, buffer: &Buffer, read: Scope, write: Scope) -> Result<(), GpuError> {

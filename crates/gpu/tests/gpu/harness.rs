@@ -19,7 +19,12 @@ pub(crate) fn with_device(test: impl FnOnce(&Device)) {
 /// Opens the device that the environment names, or the best one.
 pub(crate) fn open(validation: bool) -> Device {
     let select = std::env::var("OSCULATE_DEVICE").ok();
-    let device = Device::new(&DeviceDesc { select, validation, application: "osculate-gpu tests".to_owned() });
+    let device = Device::new(&DeviceDesc {
+        select,
+        validation,
+        application: "osculate-gpu tests".to_owned(),
+        ..DeviceDesc::default()
+    });
     device.unwrap_or_else(|error| panic!("these tests need a Vulkan device and the validation layers: {error}"))
 }
 
