@@ -8,6 +8,7 @@ pub mod formula;
 pub mod legend;
 pub mod mutation;
 pub mod picture;
+pub mod rigged;
 pub mod stars;
 pub mod whole;
 pub mod zoo;

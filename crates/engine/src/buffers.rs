@@ -43,12 +43,17 @@ pub(crate) struct SurfaceBuffers {
 }
 
 /// Makes buffers, and refuses those that a shader could not see whole.
-struct Uploader<'a> {
+pub(crate) struct Uploader<'a> {
     device: &'a Device,
     bytes: u64,
 }
 
-impl Uploader<'_> {
+impl<'a> Uploader<'a> {
+    /// Has uploaded nothing yet.
+    pub(crate) fn new(device: &'a Device) -> Self {
+        Self { device, bytes: 0 }
+    }
+
     fn check(&mut self, name: &str, bytes: u64) -> Result<(), EngineError> {
         let limit = self.device.info().limits.max_storage_buffer_range;
         if bytes > limit {
@@ -59,7 +64,7 @@ impl Uploader<'_> {
         Ok(())
     }
 
-    fn table<T: NoUninit>(&mut self, name: &str, data: &[T]) -> Result<Buffer, EngineError> {
+    pub(crate) fn table<T: NoUninit>(&mut self, name: &str, data: &[T]) -> Result<Buffer, EngineError> {
         self.check(name, size_of_val(data) as u64)?;
         Ok(self.device.upload(name, BufferUsage::STORAGE, data)?)
     }
@@ -73,7 +78,7 @@ impl Uploader<'_> {
 
 impl SurfaceBuffers {
     pub(crate) fn new(device: &Device, plan: &SurfacePlan, cage_edges: &[[u32; 2]]) -> Result<Self, EngineError> {
-        let mut up = Uploader { device, bytes: 0 };
+        let mut up = Uploader::new(device);
         let points = up.floats("points", u64::from(plan.point_count) * 3)?;
         let vertex_records = up.floats(
             "vertex records",

@@ -70,6 +70,16 @@ impl Camera {
         Ok(Self { eye, at, up, fovy, near, far: (distance + 1.2 * radius).max(2.0 * near) })
     }
 
+    /// The same camera, its near and far planes moved apart as far as it takes to show a box too: where an animated cage goes.
+    #[must_use]
+    pub fn reaching(self, bounds: Bounds) -> Self {
+        let (radius, distance) = (bounds.half_diagonal(), (bounds.center() - self.eye).length());
+        // Depths are told apart the worse the nearer the near plane is.
+        let nearest = 0.01 * (self.at - self.eye).length();
+        let near = self.near.min((distance - 1.2 * radius).max(nearest));
+        Self { near, far: self.far.max(distance + 1.2 * radius), ..self }
+    }
+
     /// View space from cage space.
     pub(crate) fn view(&self, space: &CageSpace) -> DMat4 {
         // In cage space, where lengths are near one whatever the size of the cage.
@@ -92,6 +102,18 @@ impl Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_reaching_camera_shows_more_and_looks_the_same() {
+        let camera = Camera::fit(bounds());
+        assert!((camera.reaching(bounds()).near - camera.near).abs() < 1e-12);
+        let far = Bounds { min: DVec3::splat(-60.0), max: DVec3::splat(-50.0) };
+        let reaching = camera.reaching(far);
+        assert!(reaching.near == camera.near && reaching.far > (camera.eye - far.min).length());
+        let around = camera.reaching(Bounds { min: DVec3::splat(-99.0), max: DVec3::splat(99.0) });
+        assert!(around.near > 0.0 && around.near < camera.near && around.far > 99.0);
+        assert_eq!(Camera { near: camera.near, far: camera.far, ..around }, camera);
+    }
 
     fn bounds() -> Bounds {
         Bounds { min: DVec3::new(-1.0, 2.0, 3.0), max: DVec3::new(3.0, 4.0, 9.0) }

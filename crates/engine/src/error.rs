@@ -47,6 +47,23 @@ pub enum EngineError {
         /// The vertex.
         vertex: usize,
     },
+    /// A cage that nothing moves was to be animated.
+    #[error("the cage has no rig: nothing in its file moves vertices")]
+    NoRig,
+    /// An animation that was asked for is not there.
+    #[error("there is no animation {animation}: the rig has {count}, counted from 0")]
+    NoSuchAnimation {
+        /// The one asked for.
+        animation: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A pose cannot be computed with.
+    #[error("the pose does not work: {reason}")]
+    Pose {
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A point that was asked for is not on the surface.
     #[error("there is no point (face {face}, sub {sub}, s {s}, t {t}): {reason}")]
     NoSuchPoint {

@@ -16,6 +16,7 @@
 //! triangles that the tessellator made, evaluate single points, and prove that no shared edge is open.
 
 mod alpha;
+mod animate;
 mod buffers;
 mod camera;
 mod canvas;
@@ -38,6 +39,7 @@ mod space;
 mod surface;
 mod tessellation;
 
+pub use animate::Animator;
 pub use camera::{Camera, CameraError};
 pub use capture::CapturedVertex;
 pub use check::{CheckReport, WeldReport, check};
@@ -46,7 +48,7 @@ pub use engine::{Engine, EngineDesc};
 pub use error::EngineError;
 pub use keys::VertexKey;
 pub use osculate_cage::{BoundaryRule, Cage};
-pub use osculate_gpu::{Device, DeviceDesc, DeviceError, DeviceInfo, GpuError, devices};
+pub use osculate_gpu::{Device, DeviceDesc, DeviceError, DeviceInfo, GpuError, Recording, devices};
 pub use osculate_shaders::ShaderSet;
 pub use osculate_subdiv::{PatchForm, PatchKind, Place, PlanError, Scheme, SubFace, SurfacePlan, UnknownScheme};
 pub use pipelines::{PipelineObserver, PipelineProgress};

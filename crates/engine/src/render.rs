@@ -1,6 +1,6 @@
 //! Pictures.
 
-use osculate_cage::Cage;
+use osculate_cage::{Bounds, Cage};
 use osculate_shaders::constant;
 
 use crate::canvas::Canvas;
@@ -108,9 +108,14 @@ const BACKGROUND: [f32; 4] = [0.0307, 0.0369, 0.0482, 1.0];
 impl RenderDesc {
     /// The whole cage from its upper right front, lit, at four samples a pixel.
     pub fn fit(cage: &Cage, size: [u32; 2]) -> Self {
+        Self::fit_box(cage.bounds(), size)
+    }
+
+    /// The same for whatever is in a box: a cage in a pose.
+    pub fn fit_box(bounds: Bounds, size: [u32; 2]) -> Self {
         Self {
             size,
-            camera: Camera::fit(cage.bounds()),
+            camera: Camera::fit(bounds),
             tessellation: Tessellation::default(),
             shade: Shade::Lit,
             cage: false,

@@ -86,13 +86,23 @@ impl Surface {
         Ok(())
     }
 
-    /// Adds the passes that compute refined points, phantom points, records and coefficients from the cage's points.
+    /// Adds the passes that bring the surface up to date with the points of [`Self::write_points`].
     ///
     /// # Errors
     /// If a pipeline cannot be made.
     pub fn record_update(&self, recording: &mut Recording) -> Result<(), EngineError> {
-        let (plan, buffers) = (&self.plan, &self.buffers);
+        let buffers = &self.buffers;
         recording.copy_buffer(&buffers.staging, 0..buffers.staging.size(), &buffers.points, 0);
+        self.record_derived(recording)
+    }
+
+    /// Adds the passes that compute refined points, phantom points, records and coefficients from the cage's points on the device,
+    /// whoever put them there: [`Self::record_update`], or [`crate::Animator::record`].
+    ///
+    /// # Errors
+    /// If a pipeline cannot be made.
+    pub fn record_derived(&self, recording: &mut Recording) -> Result<(), EngineError> {
+        let plan = &self.plan;
         let mut kernels: Vec<Kernel<'_>> = (0..plan.levels.len()).flat_map(|level| self.level_kernels(level)).collect();
         kernels.extend(self.record_kernels());
         kernels.retain(|kernel| kernel.threads > 0);

@@ -134,6 +134,38 @@ shared_structs! {
         pub side_vertex: [u32; 4],
     }
 
+    /// What moves a vertex of the cage (`shaders/animate/skin.comp`).
+    pub struct SkinVertex {
+        /// Position before anything moves it, in the bind frame of its joints.
+        pub bind: [f32; 3],
+        /// Its first influence.
+        pub first_influence: u32,
+        /// The end of its influences.
+        pub influence_end: u32,
+        /// Its first morph offset.
+        pub first_offset: u32,
+        /// The end of its morph offsets.
+        pub offset_end: u32,
+        /// Up to the alignment of `bind`.
+        pub padding: u32,
+    }
+
+    /// A joint that moves a vertex (`shaders/animate/skin.comp`).
+    pub struct SkinInfluence {
+        /// The joint.
+        pub joint: u32,
+        /// Its share; those of a vertex have the sum 1.
+        pub weight: f32,
+    }
+
+    /// What a morph target adds to a vertex (`shaders/animate/skin.comp`).
+    pub struct MorphOffset {
+        /// The offset at weight 1, in the bind frame of the vertex.
+        pub offset: [f32; 3],
+        /// The target, counted over all sets.
+        pub morph_target: u32,
+    }
+
     /// A point that `shaders/evaluate/sample.comp` is asked for.
     pub struct SampleRequest {
         /// Global id of the patch.

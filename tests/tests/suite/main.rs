@@ -1,5 +1,6 @@
 //! All cases that need more than one crate, in one program so that they link once and share a device.
 
+mod animation;
 mod curvature;
 mod difference;
 mod evaluators;

@@ -147,6 +147,7 @@ impl Rig {
         let sorted = self.morph_sets.is_sorted_by(|a, b| a.node < b.node);
         let finite = self.bind_positions.iter().all(|p| p.is_finite())
             && self.joint_weights.iter().all(|&w| w.is_finite() && w >= 0.0);
+        let held = self.joint_weights.chunks(self.influences.max(1)).all(|weights| weights.iter().any(|&w| w > 0.0));
         for (holds, fault) in [
             (whole, "bind positions, joints and weights must be as many as vertices"),
             (parents, "parents must come before their children"),
@@ -155,6 +156,10 @@ impl Rig {
             (morphs, "morph sets must name nodes and vertices that exist, rising, with a weight for each target"),
             (sorted, "morph sets must be in the order of their nodes, one for each"),
             (finite, "bind positions and weights must be finite and weights at least 0"),
+            (
+                held && (self.influences > 0 || vertices == 0),
+                "every vertex must have a joint with a weight greater than 0",
+            ),
             (self.animations.iter().all(|animation| animation.fits(self)), "animations must name what exists"),
         ] {
             if !holds {

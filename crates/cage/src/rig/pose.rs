@@ -70,10 +70,13 @@ impl Rig {
     }
 }
 
-/// A point moved by weighted matrices. One matrix of weight 1 moves it without rounding of the blend.
+/// A point moved by matrices with weights. Their sum, 1 but for the rounding of 32-bit floats, is divided by: a cage far from the origin
+/// would show it. One matrix moves the point without rounding of the blend.
 pub(crate) fn blend(influences: impl Iterator<Item = (u32, f32)>, matrices: &[DAffine3], point: DVec3) -> DVec3 {
-    influences
-        .filter(|(_, weight)| *weight != 0.0)
-        .map(|(joint, weight)| f64::from(weight) * matrices[joint as usize].transform_point3(point))
-        .sum()
+    let moved = influences.filter(|(_, weight)| *weight != 0.0).map(|(joint, weight)| {
+        let weight = f64::from(weight);
+        (weight, weight * matrices[joint as usize].transform_point3(point))
+    });
+    let (sum, total) = moved.fold((0.0, DVec3::ZERO), |(sum, total), (weight, part)| (sum + weight, total + part));
+    if sum == 1.0 { total } else { total / sum }
 }

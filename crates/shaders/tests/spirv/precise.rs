@@ -12,8 +12,14 @@ use std::collections::HashSet;
 const EXEMPT_PREFIX: &str = "shade_";
 
 /// Folder and extension of the stages that compute geometry.
-const GEOMETRY: [(&str, &str); 5] =
-    [("patch/", ".tesc"), ("patch/", ".tese"), ("sample/", ".comp"), ("records/", ".comp"), ("subdivide/", ".comp")];
+const GEOMETRY: [(&str, &str); 6] = [
+    ("animate/", ".comp"),
+    ("patch/", ".tesc"),
+    ("patch/", ".tese"),
+    ("sample/", ".comp"),
+    ("records/", ".comp"),
+    ("subdivide/", ".comp"),
+];
 
 #[test]
 fn geometry_is_precise() {
