@@ -1,10 +1,10 @@
 //! The JSON part of a file: parsed, its references checked, and its extensions known.
 
-use ::gltf::json::Root;
 use ::gltf::json::validation::{Checked, Error as Fault, Validate};
+use ::gltf::json::{Root, deserialize};
 use ::gltf::{Document, Gltf, Semantic};
 
-use super::GltfError;
+use super::{GltfError, container};
 use crate::listed::numbered;
 use crate::text::excerpt;
 
@@ -28,21 +28,34 @@ const MOST_FAULTS: usize = 3;
 
 /// A file of which every index names something.
 pub(super) fn parse(bytes: &[u8]) -> Result<Gltf, GltfError> {
-    // The crate subtracts the size of the header from the length without a check.
-    if let Some(header) = bytes.strip_prefix(b"glTF") {
-        let length = header.get(4..8).map(|l| u32::from_le_bytes([l[0], l[1], l[2], l[3]]));
-        if length.is_none_or(|length| length < 20) {
-            return Err(GltfError::Format("the header of the binary file is cut short".into()));
-        }
-    }
-    let Gltf { document, blob } =
-        Gltf::from_slice_without_validation(bytes).map_err(|error| malformed([error.to_string()]))?;
+    let (text, blob) = container::split(bytes)?;
+    let Gltf { document, .. } = Gltf::from_slice_without_validation(text).map_err(|error| unreadable(text, &error))?;
     let json = document.into_json();
     check_extensions(&json)?;
     check_positions(&json)?;
     validate(&json)?;
     check_channels(&json)?;
-    Ok(Gltf { document: Document::from_json_without_validation(json), blob })
+    Ok(Gltf { document: Document::from_json_without_validation(json), blob: blob.map(<[u8]>::to_vec) })
+}
+
+/// Why JSON cannot be read. Files of glTF 1.0 are quite different and would be full of faults.
+fn unreadable(text: &[u8], error: &::gltf::Error) -> GltfError {
+    let version = deserialize::from_slice(text).ok().and_then(|Versioned { asset }| asset.version);
+    match version.filter(|version| version.starts_with("1.")) {
+        Some(version) => GltfError::Format(format!("the file is glTF {}; export it again as glTF 2.0", cut(&version))),
+        None => malformed([error.to_string()]),
+    }
+}
+
+/// What every version of the format has.
+#[derive(serde::Deserialize)]
+struct Versioned {
+    asset: Asset,
+}
+
+#[derive(serde::Deserialize)]
+struct Asset {
+    version: Option<String>,
 }
 
 /// A message in one line.

@@ -23,7 +23,7 @@ pub enum GltfError {
     #[error(transparent)]
     Limit(#[from] LimitError),
     /// The scene has no triangles.
-    #[error("no triangles in the scene")]
+    #[error("no triangles in the scene; export meshes, not points, lines or an empty scene")]
     NoTriangles,
     /// More triangles than a control cage can have.
     #[error("more than {0} triangle corners in the scene; that is no control cage")]
@@ -116,7 +116,7 @@ pub enum GltfError {
         found: usize,
     },
     /// A primitive without positions, or with an accessor for them that does not exist.
-    #[error("mesh {mesh} primitive {primitive} has no POSITION")]
+    #[error("mesh {mesh} primitive {primitive} has no accessor for POSITION")]
     NoPositions {
         /// The mesh.
         mesh: usize,

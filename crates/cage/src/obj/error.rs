@@ -7,11 +7,22 @@ pub enum ObjError {
     /// Bytes that no text holds.
     #[error("not a text OBJ file: it holds zero bytes; export it as OBJ in ASCII or UTF-8")]
     NotText,
+    /// Statements, but no faces among them.
+    #[error(
+        "no faces, but {}; export polygons, which are lines like `f 1 2 3 4`",
+        what_there_is(*.ignored, .statement)
+    )]
+    NoFaces {
+        /// How many statements were ignored.
+        ignored: usize,
+        /// The first of them.
+        statement: String,
+    },
     /// A word that is not a number where one is due.
     #[error("{0:?} is not a number; numbers look like -1.5 or 2e-3")]
     Number(String),
     /// A number that is infinite, not a number or too large for 64 bits.
-    #[error("{0:?} is not finite")]
+    #[error("{0:?} is not finite; write a finite number")]
     NotFinite(String),
     /// A statement with fewer numbers than it needs.
     #[error("`{statement}` has {found} of the {needed} numbers it needs")]
@@ -72,4 +83,12 @@ pub enum ObjError {
     /// A word that is not an index of a tag.
     #[error("{0:?} is not an index; the indices of tags count from 0")]
     TagIndex(String),
+}
+
+/// What a file without faces has instead.
+fn what_there_is(ignored: usize, first: &str) -> String {
+    match ignored {
+        1 => format!("a statement that means nothing to a cage: {first:?}"),
+        _ => format!("{ignored} statements that mean nothing to a cage, here the first: {first:?}"),
+    }
 }

@@ -10,7 +10,7 @@ use super::{ObjError, tags};
 use crate::draft::{Draft, SourceLines};
 use crate::face_sets::FaceSets;
 use crate::limits::Gauge;
-use crate::{CageDesc, FaceSetKind, FaceVarying, NONE, ReadDesc, Tags};
+use crate::{CageDesc, FaceSetKind, FaceVarying, NONE, ReadDesc, Tags, Warning};
 
 /// An error and its line.
 type AtLine<T> = Result<T, (u32, ObjError)>;
@@ -20,11 +20,9 @@ pub(super) fn parse(text: &[u8], desc: &ReadDesc) -> AtLine<Draft> {
     if text.iter().take(4096).any(|&byte| byte == 0) {
         return Err((1, ObjError::NotText));
     }
-    let gauge = Gauge::new(desc, text).map_err(|error| (1, error.into()))?;
+    let gauge = Gauge::new(desc.limits, text).map_err(|error| (1, error.into()))?;
     let mut reader = Reader::new(gauge, desc.repair.is_some());
-    let mut lines = Lines::new(text);
-    while let Some((number, line)) = lines.next() {
-        reader.gauge.left(lines.left()).map_err(|error| (number, error.into()))?;
+    for (number, line) in Lines::new(text) {
         reader.statement(&line, number).map_err(|error| (number, error))?;
     }
     reader.finish()
@@ -95,7 +93,6 @@ impl Reader {
         let counts = Counts { vertices: self.positions.len(), uv: self.uv_values.len() };
         let start = self.face_vertices.len();
         for word in words {
-            self.gauge.part()?;
             let Corner { vertex, uv } = corner(word, counts)?;
             self.face_vertices.push(vertex);
             self.uv_indices.push(uv);
@@ -127,6 +124,9 @@ impl Reader {
         self.check_range("vertex", &self.face_vertices, self.positions.len())?;
         self.check_range("uv", &self.uv_indices, self.uv_values.len())?;
         let mut warnings = std::mem::take(&mut self.ignored).into_warnings();
+        if self.lines.faces.is_empty() {
+            check_statements(&warnings)?;
+        }
         let uv = FaceVarying { values: self.uv_values, indices: self.uv_indices };
         let desc = CageDesc {
             uv: uv.finish(&self.face_offsets, &mut warnings),
@@ -147,6 +147,19 @@ impl Reader {
         let face = self.face_offsets.partition_point(|&offset| offset as usize <= corner) - 1;
         let index = i64::from(indices[corner]) + 1;
         Err((self.lines.faces[face], ObjError::OutOfRange { what, index, count }))
+    }
+}
+
+/// A file without faces that has other statements is likely to be something else.
+fn check_statements(warnings: &[Warning]) -> AtLine<()> {
+    let statements = warnings.iter().filter_map(|warning| match warning {
+        Warning::Statement { name, statements, line, .. } => Some((name, *statements, *line)),
+        _ => None,
+    });
+    let ignored = statements.clone().map(|(_, count, _)| count).sum();
+    match statements.min_by_key(|(_, _, line)| *line) {
+        Some((first, _, line)) => Err((line, ObjError::NoFaces { ignored, statement: first.clone() })),
+        None => Ok(()),
     }
 }
 

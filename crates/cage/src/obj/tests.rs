@@ -364,9 +364,9 @@ mod refusals {
         assert_eq!(refused("\nv 0 0 x\n"), "test.obj:2: \"x\" is not a number; numbers look like -1.5 or 2e-3");
         assert_eq!(refused("v 0 0\n"), "test.obj:1: `v` has 2 of the 3 numbers it needs");
         assert_eq!(refused("vt\n"), "test.obj:1: `vt` has 0 of the 1 numbers it needs");
-        assert_eq!(refused("v 0 nan 0\n"), "test.obj:1: \"nan\" is not finite");
-        assert_eq!(refused("v 0 1e400 0\n"), "test.obj:1: \"1e400\" is not finite");
-        assert_eq!(refused("vt inf 0\n"), "test.obj:1: \"inf\" is not finite");
+        assert_eq!(refused("v 0 nan 0\n"), "test.obj:1: \"nan\" is not finite; write a finite number");
+        assert_eq!(refused("v 0 1e400 0\n"), "test.obj:1: \"1e400\" is not finite; write a finite number");
+        assert_eq!(refused("vt inf 0\n"), "test.obj:1: \"inf\" is not finite; write a finite number");
     }
 
     #[test]

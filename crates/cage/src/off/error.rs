@@ -30,7 +30,7 @@ pub enum OffError {
     #[error("{0:?} is not a number; numbers look like -1.5 or 2e-3")]
     Number(String),
     /// A number that is infinite or not a number.
-    #[error("{0:?} is not finite")]
+    #[error("{0:?} is not finite; coordinates are finite numbers")]
     NotFinite(String),
     /// A vertex with fewer numbers than it needs.
     #[error("a vertex with {found} of the {needed} numbers it needs")]

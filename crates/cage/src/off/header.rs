@@ -52,7 +52,7 @@ pub(super) fn read<'a>(lines: &mut impl Iterator<Item = (u32, &'a [u8])>) -> Res
     }
     let mut at = number;
     if rest.is_empty() {
-        let (number, line) = lines.next().ok_or((at + 1, OffError::Counts))?;
+        let (number, line) = lines.next().ok_or((at, OffError::Counts))?;
         (at, rest) = (number, words(line).collect());
     }
     let counts = counts(&rest).ok_or((at, OffError::Counts))?;

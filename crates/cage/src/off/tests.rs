@@ -73,7 +73,7 @@ fn malformed_files() {
             "OFF BINARY\n\0\0\0\u{4}".into(),
             ":1: binary OFF is not read; export it as OFF in text with three coordinates, or as PLY or OBJ",
         ),
-        ("OFF\n".into(), ":2: the numbers of vertices and faces are missing; after `OFF` comes a line like `8 6 12`"),
+        ("OFF\n".into(), ":1: the numbers of vertices and faces are missing; after `OFF` comes a line like `8 6 12`"),
         (
             square("4 1 4", "4"),
             ":2: the numbers of vertices and faces are missing; after `OFF` comes a line like `8 6 12`",
@@ -82,15 +82,15 @@ fn malformed_files() {
             square("4 1 4", "-4 1"),
             ":2: the numbers of vertices and faces are missing; after `OFF` comes a line like `8 6 12`",
         ),
-        (square("4 1 4", "4 2 4"), ":8: the file ends after 1 of 2 faces; it is cut short or its counts are wrong"),
-        (square("4 1 4", "9 1 4"), ":8: the file ends after 5 of 9 vertices; it is cut short or its counts are wrong"),
+        (square("4 1 4", "4 2 4"), ":7: the file ends after 1 of 2 faces; it is cut short or its counts are wrong"),
+        (square("4 1 4", "9 1 4"), ":7: the file ends after 5 of 9 vertices; it is cut short or its counts are wrong"),
         (
             "OFF\n99999999999999 1 0\n0 0 0\n".into(),
-            ":4: the file ends after 1 of 99999999999999 vertices; it is cut short or its counts are wrong",
+            ":3: the file ends after 1 of 99999999999999 vertices; it is cut short or its counts are wrong",
         ),
         (square("1 1 0", "1 1"), ":5: a vertex with 2 of the 3 numbers it needs"),
         (square("1 1 0", "1 1 x"), ":5: \"x\" is not a number; numbers look like -1.5 or 2e-3"),
-        (square("1 1 0", "1 1 nan"), ":5: \"nan\" is not finite"),
+        (square("1 1 0", "1 1 nan"), ":5: \"nan\" is not finite; coordinates are finite numbers"),
         (square("OFF", "STOFF"), ":3: a vertex with 3 of the 5 numbers it needs"),
         (
             square("4 0 1 2 3", "x 0 1 2 3"),

@@ -141,15 +141,21 @@ pub(super) fn parse(bytes: &[u8]) -> Result<Header, PlyError> {
         match words[..] {
             [] | [b"ply" | b"comment" | b"obj_info", ..] => {}
             [b"format", name, ..] => format = Some(parse_format(name).map_err(fault)?),
+            [b"element", ..] if words.len() != 3 => {
+                return Err(fault("an element looks like `element vertex 8`".into()));
+            }
             [b"element", name, count] => elements.push(element(name, count, &elements).map_err(fault)?),
             [b"property", ..] => {
-                let last = elements.last_mut().ok_or_else(|| fault("a property before the first element".into()))?;
+                let last = elements.last_mut().ok_or_else(|| {
+                    fault("a property before the first element; properties follow the element they belong to".into())
+                })?;
                 add_property(last, &words[1..]).map_err(fault)?;
             }
             [b"end_header", ..] => {
                 let format = format.ok_or_else(|| fault("the header has no line `format`".into()))?;
                 return Ok(Header { format, elements, end: lines.at, end_line: lines.number + 1 });
             }
+            [b"format"] => return Err(fault("a format looks like `format ascii 1.0`".into())),
             [word, ..] => return Err(fault(format!("{:?} is no statement of a PLY header", quoted(word)))),
         }
     }
@@ -169,9 +175,11 @@ fn parse_format(word: &[u8]) -> Result<Format, String> {
 
 fn element(name: &[u8], count: &[u8], others: &[Element]) -> Result<Element, String> {
     let number = integer(count).and_then(|n| u64::try_from(n).ok());
-    let number = number.ok_or_else(|| format!("{:?} is not a number of elements", quoted(count)))?;
+    let number = number.ok_or_else(|| {
+        format!("{:?} is not a number of elements; an element looks like `element vertex 8`", quoted(count))
+    })?;
     if others.iter().any(|other| other.name == name) {
-        return Err(format!("a second element {:?}", quoted(name)));
+        return Err(format!("a second element {:?}; each has a name of its own", quoted(name)));
     }
     Ok(Element { name: name.into(), count: number, properties: Vec::new() })
 }
@@ -194,7 +202,7 @@ fn add_property(element: &mut Element, words: &[&[u8]]) -> Result<(), String> {
         return Err("the length of a list must be an integer".into());
     }
     if element.properties.iter().any(|other| other.name == *name) {
-        return Err(format!("a second property {:?}", quoted(name)));
+        return Err(format!("a second property {:?}; each has a name of its own", quoted(name)));
     }
     element.properties.push(Property { name: name.to_vec(), kind });
     Ok(())

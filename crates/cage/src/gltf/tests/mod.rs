@@ -429,7 +429,10 @@ fn not_gltf() {
     }
     let mut short = square().glb();
     short[8..12].copy_from_slice(&3_u32.to_le_bytes());
-    assert_eq!(refused(&short), "test.glb: not readable as glTF 2.0: the header of the binary file is cut short");
+    assert_eq!(
+        refused(&short),
+        "test.glb: not readable as glTF 2.0: the header of the binary file announces 3 bytes, which is too few"
+    );
     let mut file = square();
     file.json["nodes"] = json!([{"mesh": 7}]);
     assert!(!file.refused().contains('\n'));
@@ -439,11 +442,17 @@ fn not_gltf() {
 fn scenes_without_triangles() {
     let mut file = square();
     file.json["nodes"] = json!([{}]);
-    assert_eq!(file.refused(), "test.glb: no triangles in the scene");
+    assert_eq!(
+        file.refused(),
+        "test.glb: no triangles in the scene; export meshes, not points, lines or an empty scene"
+    );
     let mut lines = File::new();
     let positions = lines.positions(&SQUARE);
     lines.primitive(json!({"attributes": {"POSITION": positions}, "mode": 1}));
-    assert_eq!(lines.refused(), "test.glb: no triangles in the scene");
+    assert_eq!(
+        lines.refused(),
+        "test.glb: no triangles in the scene; export meshes, not points, lines or an empty scene"
+    );
 }
 
 #[test]
@@ -554,7 +563,7 @@ fn wrong_accessors() {
     );
     assert_eq!(
         with(&|f| f.json["meshes"][0]["primitives"][0]["attributes"] = json!({"TEXCOORD_0": 2})),
-        "test.glb: mesh 0 primitive 0 has no POSITION"
+        "test.glb: mesh 0 primitive 0 has no accessor for POSITION"
     );
 }
 
@@ -565,7 +574,7 @@ fn messages_of_the_parser_are_one_line() {
     file.json["accessors"][0]["bufferView"] = json!(9);
     assert_eq!(file.refused(), "test.glb: not readable as glTF 2.0: accessors[0].bufferView: Index out of bounds");
     file.json["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = json!(7);
-    assert_eq!(file.refused(), "test.glb: mesh 0 primitive 0 has no POSITION");
+    assert_eq!(file.refused(), "test.glb: mesh 0 primitive 0 has no accessor for POSITION");
 }
 
 #[test]
