@@ -160,3 +160,39 @@ fn small_files_that_ask_for_much_work() {
     file.json["scenes"] = json!([{"nodes": (0..3000).collect::<Vec<_>>()}]);
     assert!(file.refused().contains("more than 67108864 numbers"), "{}", file.refused());
 }
+
+#[test]
+fn deeply_nested_json_is_refused_or_passed_over() {
+    let nested = "[".repeat(200_000) + &"]".repeat(200_000);
+    let with = |path: &str, key: &str| {
+        let mut file = square();
+        file.json.pointer_mut(path).expect("a place")[key] = json!("NESTED");
+        let text = file.with_uri("data:;base64,").to_vec();
+        let text = String::from_utf8(text).expect("JSON").replace("\"NESTED\"", &nested);
+        read_gltf(text.as_bytes(), "nested.gltf", None).expect_err("it has no bytes").to_string()
+    };
+    let no_bytes = "nested.gltf: buffer 0 has 0 of the 56 bytes it announces";
+    // What is not looked at may be nested; what is has a limit.
+    for (path, key) in [("/meshes/0", "extras"), ("/meshes/0", "unknown"), ("", "unknown"), ("/asset", "extras")] {
+        assert_eq!(with(path, key), no_bytes, "{path} {key}");
+    }
+    for (path, key) in [("/nodes/0", "children"), ("/meshes/0", "extensions"), ("", "extensionsRequired")] {
+        let message = with(path, key);
+        assert!(message.starts_with("nested.gltf: not readable as glTF 2.0: "), "{path} {key}: {message}");
+    }
+    // Names of morph targets are looked for in extras.
+    let mut file = square();
+    let lift = file.positions(&[[0.0; 3]; 4]);
+    file.json["meshes"][0]["primitives"][0]["targets"] = json!([{"POSITION": lift}]);
+    file.json["meshes"][0]["extras"] = json!("NESTED");
+    let glb = file.glb();
+    let at = glb.windows(8).position(|bytes| bytes == b"\"NESTED\"").expect("the mark");
+    let start = glb.windows(4).rposition(|bytes| bytes == b"BIN\0").expect("the binary part") - 4;
+    let mut json = [&glb[20..at], nested.as_bytes(), &glb[at + 8..start]].concat();
+    json.resize(json.len().next_multiple_of(4), b' ');
+    let word = |n: usize| u32::try_from(n).expect("a small file").to_le_bytes();
+    let chunks = [&word(json.len()), b"JSON", &json[..], &glb[start..]].concat();
+    let glb = [&b"glTF"[..], &word(2), &word(12 + chunks.len()), &chunks].concat();
+    let cage = read(&glb).unwrap_or_else(|error| panic!("{error}"));
+    assert_eq!(cage.rig().expect("a rig").morph_sets[0].targets[0].name, "target 0");
+}
