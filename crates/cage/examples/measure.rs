@@ -1,10 +1,13 @@
-//! Times the reading of a square grid of quads: `cargo run --release -p osculate-cage --example measure -- 1000`.
+//! Times the reading of a square grid of quads, and how long it goes on without a sign of life:
+//! `cargo run --release -p osculate-cage --example measure -- 1000`.
 
 use std::error::Error;
 use std::fmt::Write as _;
-use std::time::Instant;
+use std::ops::ControlFlow;
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
-use osculate_cage::{Cage, Topology, inspect, read_obj};
+use osculate_cage::{Cage, CreaseDesc, ReadDesc, ReadObserver, ReadStage, RepairDesc, Topology, inspect, read_obj};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let side: u32 = std::env::args().nth(1).map_or(Ok(1000), |side| side.parse())?;
@@ -22,7 +25,48 @@ fn main() -> Result<(), Box<dyn Error>> {
     let (offsets, vertices) = (cage.face_offsets().to_vec(), cage.face_vertices().to_vec());
     timed("topology alone", || Topology::build(cage.vertex_count(), offsets, vertices))?;
     timed("inspection", || inspect(&cage));
+    drop((cage, text));
+
+    let silence = Arc::new(Mutex::new(Silence::new()));
+    let desc = ReadDesc {
+        repair: Some(RepairDesc::default()),
+        creases: Some(CreaseDesc { angle: Some(30.0), ..CreaseDesc::default() }),
+        observer: Some(listener(&silence)),
+        ..ReadDesc::default()
+    };
+    timed("repaired, observed", || Cage::read_with(file.path(), &desc))?;
+    let Silence { longest, stage, .. } = *silence.lock().unwrap_or_else(PoisonError::into_inner);
+    println!("longest silence    {:7.1} ms ({stage:?})", longest.as_secs_f64() * 1e3);
     Ok(())
+}
+
+/// How long an observer waits for its next call, which is when it can end the reading.
+struct Silence {
+    last: Instant,
+    longest: Duration,
+    stage: ReadStage,
+}
+
+impl Silence {
+    fn new() -> Self {
+        Self { last: Instant::now(), longest: Duration::ZERO, stage: ReadStage::Fetch }
+    }
+
+    fn end(&mut self, stage: ReadStage) {
+        let waited = self.last.elapsed();
+        if waited > self.longest {
+            (self.longest, self.stage) = (waited, stage);
+        }
+        self.last = Instant::now();
+    }
+}
+
+fn listener(silence: &Arc<Mutex<Silence>>) -> ReadObserver {
+    let silence = silence.clone();
+    ReadObserver::new(move |progress| {
+        silence.lock().unwrap_or_else(PoisonError::into_inner).end(progress.stage);
+        ControlFlow::Continue(())
+    })
 }
 
 fn grid(side: u32) -> Result<String, std::fmt::Error> {

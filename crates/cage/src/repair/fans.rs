@@ -24,8 +24,7 @@ pub(super) fn make(loops: &Loops, pairs: &mut Pairs, watch: &Watch) -> Result<Fa
     let mut round = 0;
     loop {
         let fans = Fans::number(loops, pairs, watch)?;
-        let conflicts = fans.conflicts(loops, pairs);
-        watch.look()?;
+        let conflicts = fans.conflicts(loops, pairs, watch)?;
         if conflicts.is_empty() {
             return Ok(fans);
         }
@@ -80,7 +79,8 @@ impl Fans {
 
     /// Sets of half-edges that must not all stay joined: those at a vertex that their face visits twice, and those of edges that
     /// are not a pair but have the same ends.
-    fn conflicts(&self, loops: &Loops, pairs: &Pairs) -> Vec<Vec<u32>> {
+    fn conflicts(&self, loops: &Loops, pairs: &Pairs, watch: &Watch) -> Result<Vec<Vec<u32>>, Cancelled> {
+        watch.look()?;
         let mut conflicts: Vec<Vec<u32>> = (0..loops.face_count() as u32)
             .into_par_iter()
             .map(|f| {
@@ -97,13 +97,16 @@ impl Fans {
             })
             .filter(|conflict: &Vec<u32>| !conflict.is_empty())
             .collect();
+        watch.look()?;
         let ends = |h: u32| {
             let (a, b) = (self.vertices[h as usize], self.vertices[loops.next(h) as usize]);
             [a.min(b), a.max(b)]
         };
         let mut edges: Vec<([u32; 2], u32)> =
             (0..loops.corners.len() as u32).into_par_iter().map(|h| (ends(h), h)).collect();
+        watch.look()?;
         edges.par_sort_unstable();
+        watch.look()?;
         let crowd = |edge: &&[([u32; 2], u32)]| match edge {
             [_] => false,
             [(_, a), (_, b)] => pairs.mate(*a) != *b,
@@ -111,7 +114,8 @@ impl Fans {
         };
         let crowds = edges.chunk_by(|a, b| a.0 == b.0).filter(crowd);
         conflicts.extend(crowds.map(|edge| edge.iter().map(|&(_, h)| h).collect()));
-        conflicts
+        watch.look()?;
+        Ok(conflicts)
     }
 }
 

@@ -66,6 +66,7 @@ impl Pairs {
             }
         }
         let turned = winding.minority();
+        watch.look()?;
         let crowds: Vec<&Vec<u32>> = groups.iter().filter(|group| group.len() > 2).collect();
         if !crowds.is_empty() {
             // Once for all edges: a face may have many.
@@ -91,10 +92,12 @@ impl Pairs {
     ) -> Result<(), Cancelled> {
         let half_edges = (0..loops.corners.len() as u32).into_par_iter();
         let mut keyed: Vec<([u32; 2], u32)> = half_edges.map(|h| (loops.vertex_ends(h), h)).collect();
+        watch.look()?;
         keyed.par_sort_unstable();
         watch.look()?;
         let mut candidates = Vec::new();
-        for group in keyed.chunk_by(|a, b| a.0 == b.0) {
+        for (k, group) in (0..).zip(keyed.chunk_by(|a, b| a.0 == b.0)) {
+            watch.pulse(k)?;
             let ends = group[0].0.map(|v| desc.source_vertex(v));
             match group {
                 [_] => {}
@@ -104,6 +107,7 @@ impl Pairs {
         }
         // In the order of the faces: where a part is one-sided, it is opened as late as possible.
         candidates.sort_unstable();
+        watch.look()?;
         for (k, (a, b, ends)) in (0..).zip(candidates) {
             watch.at(k)?;
             if loops.faces[a as usize] != loops.faces[b as usize] && !self.try_pair(a, b, loops, winding) {
