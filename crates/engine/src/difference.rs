@@ -40,7 +40,7 @@ pub fn render_difference(
         None => comparison.measure()?.largest,
     };
     let mut canvas = Canvas::new(engine, &desc)?;
-    let frame = canvas.frame(surface).upload(engine.device())?;
+    let frame = canvas.frame(surface)?;
     let mut distances = Distances::default();
     comparison.for_each_chunk(|grids, chunk, vertices, of_vertices| {
         distances.add(of_vertices);

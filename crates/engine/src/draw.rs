@@ -2,13 +2,13 @@
 
 use bytemuck::bytes_of;
 use osculate_gpu::{
-    Bindings, Blend, Compare, DepthBias, DepthState, Draw, Format, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode,
-    Shader, Tessellation as Stages, Topology,
+    Bindings, Blend, Compare, DepthBias, DepthState, Draw, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode, Shader,
+    Tessellation as Stages, Topology,
 };
 use osculate_shaders::{constant, layout::PatchPush};
 use osculate_subdiv::{PatchForm, PatchKind, PatchList};
 
-use crate::{Engine, EngineError, Spacing, Surface, Tessellation};
+use crate::{Engine, EngineError, Spacing, Surface, Target, Tessellation};
 
 /// What becomes of tessellated patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -20,15 +20,6 @@ pub(crate) enum Output {
     /// Captured by transform feedback.
     Capture,
 }
-
-/// What is drawn to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) struct Target {
-    pub(crate) color: Format,
-    pub(crate) samples: u32,
-}
-
-pub(crate) const DEPTH_FORMAT: Format = Format::Depth32Float;
 
 /// Everything that tells one graphics pipeline from another. Level, camera and shade are uniforms, lest pipelines multiply.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -140,7 +131,7 @@ fn with_output<'a>(desc: GraphicsPipelineDesc<'a>, output: Output) -> GraphicsPi
         polygon_mode,
         depth: Some(depth),
         color_format: Some(target.color),
-        depth_format: Some(DEPTH_FORMAT),
+        depth_format: Some(Target::DEPTH),
         samples: target.samples,
         ..desc
     };
@@ -170,7 +161,7 @@ fn make_cage(engine: &Engine, target: Target, hidden: bool) -> Result<GraphicsPi
         blend: Blend::Alpha,
         depth: Some(if hidden { DepthState { compare: Compare::Always, ..upon_fill() } } else { upon_fill() }),
         color_format: Some(target.color),
-        depth_format: Some(DEPTH_FORMAT),
+        depth_format: Some(Target::DEPTH),
         samples: target.samples,
         ..GraphicsPipelineDesc::new(if hidden { "cage overlay, hidden too" } else { "cage overlay" }, &vertex)
     };
@@ -233,6 +224,8 @@ impl Surface {
 
 #[cfg(test)]
 mod tests {
+    use osculate_gpu::Format;
+
     use super::*;
 
     #[test]

@@ -5,7 +5,7 @@ use std::ops::Range;
 use bytemuck::{NoUninit, bytes_of};
 use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, ComputePass, Draw, Memory, Recording, Vertices};
 use osculate_shaders::binding;
-use osculate_shaders::layout::KernelPush;
+use osculate_shaders::layout::{GridPatch, KernelPush};
 use osculate_subdiv::PatchForm;
 
 use crate::draw::{Output, PipelineKey};
@@ -51,6 +51,21 @@ pub(crate) struct GridChunk {
 }
 
 impl GridChunk {
+    /// The same once the triangles are in a buffer.
+    pub(crate) fn without_indices(self) -> Self {
+        Self { indices: Vec::new(), ..self }
+    }
+
+    /// Number of vertices.
+    pub(crate) fn vertex_count(&self) -> u64 {
+        self.vertices.size() / size_of::<CapturedVertex>() as u64
+    }
+
+    /// Bytes on the device: of vertices and patches.
+    pub(crate) fn bytes(&self) -> u64 {
+        self.vertices.size() + self.patches.len() as u64 * size_of::<GridPatch>() as u64
+    }
+
     /// The same triangles between other vertices.
     pub(crate) fn with_vertices(&self, vertices: Buffer) -> Self {
         let bindings = self.bindings.clone().with(binding::GRID_VERTICES, &vertices);
@@ -147,7 +162,7 @@ impl<'a> Grids<'a> {
             pipeline: self.surface.engine().pipeline(PipelineKey::Grid { output })?,
             bindings: chunk.bindings.clone().with(binding::FRAME, frame),
             push: Vec::new(),
-            vertices: Vertices::Indexed { indices: indices.clone(), range: 0..chunk.indices.len() as u32 },
+            vertices: Vertices::Indexed { indices: indices.clone(), range: 0..(indices.size() / 4) as u32 },
             instances: 0..1,
             scissor: None,
         })

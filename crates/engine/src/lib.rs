@@ -13,7 +13,7 @@
 //! ```
 //!
 //! A [`Surface`] holds a cage's tables and points on the device; [`render()`], [`Surface::capture`], [`Surface::sample`] and [`check()`] draw it, hand out the
-//! triangles that the tessellator made, evaluate single points, and prove that no shared edge is open.
+//! triangles that the tessellator made, evaluate single points, and prove that no shared edge is open. A [`Drawing`] is what stays of it from frame to frame.
 
 mod alpha;
 mod animate;
@@ -24,6 +24,7 @@ mod capture;
 mod check;
 mod difference;
 mod draw;
+mod drawing;
 mod engine;
 mod error;
 mod evaluate;
@@ -31,12 +32,14 @@ mod frame;
 mod grid;
 mod kernels;
 mod keys;
+mod look;
 mod memo;
 mod pipelines;
 mod render;
 mod sample;
 mod space;
 mod surface;
+mod targets;
 mod tessellation;
 
 pub use animate::Animator;
@@ -44,10 +47,13 @@ pub use camera::{Camera, CameraError};
 pub use capture::CapturedVertex;
 pub use check::{CheckReport, WeldReport, check};
 pub use difference::{Difference, render_difference};
+pub use drawing::{DrawPlan, Drawing, DrawingDesc};
 pub use engine::{Engine, EngineDesc};
 pub use error::EngineError;
 pub use keys::VertexKey;
 pub use osculate_cage::{BoundaryRule, Cage};
+/// The device layer, for programs that put the library's passes and draws into recordings of their own.
+pub use osculate_gpu as gpu;
 pub use osculate_gpu::{Device, DeviceDesc, DeviceError, DeviceInfo, GpuError, Recording, devices};
 pub use osculate_shaders::ShaderSet;
 pub use osculate_subdiv::{PatchForm, PatchKind, Place, PlanError, Scheme, SubFace, SurfacePlan, UnknownScheme};
@@ -56,4 +62,5 @@ pub use render::{Picture, RenderDesc, Shade, render};
 pub use sample::{Sample, SurfacePoint};
 pub use space::CageSpace;
 pub use surface::{Surface, SurfaceDesc};
+pub use targets::{Target, Targets};
 pub use tessellation::{Evaluator, Factors, Spacing, Tessellation};

@@ -181,8 +181,7 @@ impl Engine {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::draw::Target;
-    use crate::{DeviceDesc, EngineDesc, RenderDesc, Scheme, Surface, SurfaceDesc, Tessellation, render};
+    use crate::{DeviceDesc, EngineDesc, RenderDesc, Scheme, Surface, SurfaceDesc, Target, Tessellation, render};
     use osculate_gpu::Format;
     use std::fs;
     use std::path::Path;

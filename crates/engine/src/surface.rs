@@ -1,5 +1,7 @@
 //! A cage on the device: its tables, its points, and the passes that bring them up to date.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use osculate_cage::{BoundaryRule, Cage};
 use osculate_gpu::Recording;
@@ -20,14 +22,15 @@ pub struct SurfaceDesc {
     pub boundary: Option<BoundaryRule>,
 }
 
-/// A cage on the device, ready to be drawn.
+/// A cage on the device, ready to be drawn. Clones share its tables and points, and so they move together.
+#[derive(Clone)]
 pub struct Surface {
     engine: Engine,
-    plan: SurfacePlan,
+    plan: Arc<SurfacePlan>,
     space: CageSpace,
     /// Half diagonal of the cage's box in cage space.
     radius: f32,
-    buffers: SurfaceBuffers,
+    buffers: Arc<SurfaceBuffers>,
     cage_edge_count: u32,
     boundary_edge_count: usize,
 }
@@ -44,9 +47,9 @@ impl Surface {
             topology.edge_half_edges().iter().map(|&h| [topology.origin(h), topology.target(h)]).collect();
         let boundary_edge_count = boundary_edges(cage, plan.rule) << plan.steps();
         let mut surface = Self {
-            buffers: SurfaceBuffers::new(engine.device(), &plan, &edges)?,
+            buffers: Arc::new(SurfaceBuffers::new(engine.device(), &plan, &edges)?),
             engine: engine.clone(),
-            plan,
+            plan: Arc::new(plan),
             radius: (cage.bounds().half_diagonal() * CageSpace::new(cage.bounds()).scale) as f32,
             space: CageSpace::new(cage.bounds()),
             cage_edge_count: edges.len() as u32,
@@ -73,7 +76,7 @@ impl Surface {
     ///
     /// # Errors
     /// If there are not as many points as the cage has, or one of them is not finite.
-    pub fn write_points(&mut self, points: &[DVec3]) -> Result<(), EngineError> {
+    pub fn write_points(&self, points: &[DVec3]) -> Result<(), EngineError> {
         let expected = (self.buffers.staging.size() / 12) as usize;
         if points.len() != expected {
             return Err(EngineError::PointCount { expected, found: points.len() });
@@ -81,8 +84,12 @@ impl Surface {
         if let Some(vertex) = points.iter().position(|p| !p.is_finite()) {
             return Err(EngineError::NotFinite { vertex });
         }
-        let packed: Vec<[f32; 3]> = points.iter().map(|&p| self.space.enter(p).to_array()).collect();
-        self.buffers.staging.write(0, &packed)?;
+        // Piece by piece, so that moving a cage allocates nothing.
+        let mut piece = [[0.0f32; 3]; 1024];
+        for (first, points) in (0..).step_by(size_of_val(&piece)).zip(points.chunks(piece.len())) {
+            piece.iter_mut().zip(points).for_each(|(to, &p)| *to = self.space.enter(p).to_array());
+            self.buffers.staging.write(first, &piece[..points.len()])?;
+        }
         Ok(())
     }
 

@@ -212,6 +212,11 @@ impl Recording {
         self.passes.push(Pass::FillLevels { image: image.clone() });
     }
 
+    /// Adds the passes of another recording; what is measured stays as it is.
+    pub fn append(&mut self, other: &Self) {
+        self.passes.extend_from_slice(&other.passes);
+    }
+
     /// One recording for each pass, in order: for timing passes one by one where the times within a submission do not separate them.
     pub fn split(self) -> impl Iterator<Item = Self> {
         let measure = self.measure;

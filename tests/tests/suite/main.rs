@@ -3,6 +3,7 @@
 mod animation;
 mod curvature;
 mod difference;
+mod drawing;
 mod evaluators;
 mod exactness;
 mod golden;

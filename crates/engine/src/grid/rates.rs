@@ -15,12 +15,14 @@ impl RateId {
 }
 
 /// Which rate each edge record has.
+#[derive(PartialEq)]
 enum OfEdges {
     All(RateId),
     Each(Vec<RateId>),
 }
 
 /// The different rates of a surface's edges.
+#[derive(PartialEq)]
 pub(crate) struct GridRates {
     rates: Vec<Rate>,
     words: Vec<u32>,

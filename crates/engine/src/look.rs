@@ -1,0 +1,119 @@
+//! How a surface is shown: frames, pipelines and draws, for pictures and for drawings that stay.
+
+use osculate_gpu::{Bindings, Buffer, Draw};
+use osculate_shaders::binding;
+
+use crate::draw::{Output, PipelineKey, runs};
+use crate::frame::FrameDesc;
+use crate::grid::Layout;
+use crate::{Camera, Engine, EngineError, Shade, Surface, Target, Tessellation};
+
+/// Edges of triangles.
+const WIRE: [f32; 4] = [0.012, 0.014, 0.020, 0.85];
+/// Edges of the cage, orange.
+const CAGE: [f32; 4] = [0.90, 0.27, 0.035, 1.0];
+/// How much of them shines through the surface.
+const CAGE_BEHIND: f32 = 0.18;
+
+/// What is shown of a surface, in which colours, from where, and on what.
+#[derive(Clone, Copy)]
+pub(crate) struct Look<'a> {
+    pub(crate) tessellation: &'a Tessellation,
+    pub(crate) shade: Shade,
+    /// Whether the edges of the cage are drawn over it.
+    pub(crate) cage: bool,
+    pub(crate) camera: &'a Camera,
+    /// Width and height of the picture in pixels.
+    pub(crate) size: [u32; 2],
+    pub(crate) target: Target,
+}
+
+impl Look<'_> {
+    /// Fails if the device cannot draw the shade.
+    pub(crate) fn check(&self, engine: &Engine) -> Result<(), EngineError> {
+        let info = engine.device().info();
+        if self.shade != Shade::Wireframe || info.features.wireframe {
+            return Ok(());
+        }
+        Err(EngineError::Unsupported {
+            device: info.name.clone(),
+            what: "draw the edges of triangles".to_owned(),
+            hint: "choose another shade".to_owned(),
+        })
+    }
+
+    /// Makes all pipelines that surfaces will need.
+    pub(crate) fn prepare(&self, engine: &Engine, surfaces: &[&Surface]) -> Result<(), EngineError> {
+        let (target, tessellation) = (self.target, self.tessellation);
+        let cage = self.cage.then_some([false, true].map(|hidden| PipelineKey::Cage { target, hidden }));
+        let cage = cage.into_iter().flatten();
+        if tessellation.renders_in_compute() {
+            let kernels = surfaces.iter().flat_map(|surface| surface.grid_kernels());
+            return engine.prepare(kernels, self.outputs().map(|output| PipelineKey::Grid { output }).chain(cage));
+        }
+        let patches = |output| surfaces.iter().flat_map(move |surface| surface.pipelines(tessellation.spacing, output));
+        engine.prepare([], self.outputs().flat_map(patches).chain(cage))
+    }
+
+    /// What becomes of the triangles, in order.
+    pub(crate) fn outputs(&self) -> impl Iterator<Item = Output> + use<> {
+        let target = self.target;
+        let lines = (self.shade == Shade::Wireframe).then_some(Output::Lines(target));
+        std::iter::once(Output::Fill(target)).chain(lines)
+    }
+
+    /// The frame of a surface.
+    pub(crate) fn frame<'b>(&'b self, surface: &'b Surface) -> FrameDesc<'b> {
+        FrameDesc {
+            space: surface.space(),
+            radius: surface.radius(),
+            tessellation: self.tessellation,
+            view: Some((self.camera, self.size)),
+            shade: self.shade,
+            line_color: WIRE,
+        }
+    }
+
+    /// The frames of its cage, if that is asked for: of edges behind the surface too, then of those in sight.
+    pub(crate) fn cage_frames<'b>(&'b self, surface: &'b Surface) -> impl Iterator<Item = FrameDesc<'b>> {
+        let frame = move |opacity| {
+            let [r, g, b, _] = CAGE;
+            FrameDesc { line_color: [r, g, b, opacity], ..self.frame(surface) }
+        };
+        self.cage.then_some([CAGE_BEHIND, 1.0]).into_iter().flatten().map(frame)
+    }
+
+    /// The draws of all patches by the tessellator.
+    pub(crate) fn patches(&self, surface: &Surface, frame: &Buffer) -> Result<Vec<Draw>, EngineError> {
+        let bindings = surface.buffers().patches.clone().with(binding::FRAME, frame);
+        let longest = surface.engine().patches_per_draw(self.tessellation.max_segments()?);
+        let runs = || runs(&surface.plan().lists, longest);
+        let draw = |(output, run)| surface.draw(run, &bindings, self.tessellation, output);
+        self.outputs().flat_map(|output| runs().map(move |run| (output, run))).map(draw).collect()
+    }
+
+    /// The draws of the cage, given the buffers of [`Self::cage_frames`].
+    pub(crate) fn cage_draws(&self, surface: &Surface, frames: &[Buffer]) -> Result<Vec<Draw>, EngineError> {
+        let draw = |(hidden, frame): (bool, &Buffer)| {
+            Ok(Draw {
+                pipeline: surface.engine().pipeline(PipelineKey::Cage { target: self.target, hidden })?,
+                bindings: Bindings::with(surface.buffers().cage_edges.clone(), binding::FRAME, frame),
+                push: Vec::new(),
+                vertices: (0..2 * surface.cage_edge_count()).into(),
+                instances: 0..1,
+                scissor: None,
+            })
+        };
+        [true, false].into_iter().zip(frames).map(draw).collect()
+    }
+}
+
+impl Shade {
+    /// Whose vertices a shade takes: one that shows something of each patch needs vertices of its own.
+    pub(crate) fn layout(self) -> Layout {
+        match self {
+            Self::Lit | Self::Normals | Self::Zebra | Self::Peer => Layout::Shared,
+            _ => Layout::Own,
+        }
+    }
+}
