@@ -11,6 +11,11 @@ impl<'a> PhysicalLines<'a> {
         Self { rest: text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text), next_number: 1 }
     }
 
+    /// How many bytes are left.
+    pub(crate) fn left(&self) -> usize {
+        self.rest.len()
+    }
+
     /// The number of the line that came last; 1 before the first.
     pub(crate) fn last_number(&self) -> u32 {
         self.next_number.saturating_sub(1).max(1)

@@ -29,7 +29,8 @@ pub use error::{AccessorError, GltfError, GltfPlace};
 pub use polygons::{PolygonRecovery, PolygonReport};
 
 use crate::limits::Gauge;
-use crate::{Appearance, Cage, CageDesc, CageError, Limits, ReadDesc, ReadError, Rig, Warning, draft};
+use crate::progress::Watch;
+use crate::{Appearance, Cage, CageDesc, CageError, ReadDesc, ReadError, ReadStage, Rig, Warning, draft};
 use buffers::Buffers;
 use motion::{Budget, Motion};
 use primitive::Context;
@@ -51,11 +52,13 @@ pub struct GltfDesc {
 /// [`ReadError::Gltf`] for a malformed file, [`ReadError::Limit`] for one that is too large, [`ReadError::Refused`] for a mesh that
 /// cannot be a cage.
 pub fn read_gltf(bytes: &[u8], name: &str, folder: Option<&Path>, desc: &ReadDesc) -> Result<Cage, ReadError> {
-    let file = File::read(bytes, folder, desc.limits).map_err(|error| match error {
+    let fault = |error| match error {
         GltfError::Limit(error) => ReadError::Limit { file: name.into(), error },
         error => ReadError::Gltf { file: name.into(), error },
-    })?;
-    file.build(desc).map_err(|error| ReadError::Refused { file: name.into(), line: None, error })
+    };
+    let refused = |error| ReadError::Refused { file: name.into(), line: None, error };
+    let cage = File::read(bytes, folder, desc).map_err(fault).and_then(|file| file.build(desc).map_err(refused));
+    cage.map_err(|error| error.or_cancelled(Path::new(name)))
 }
 
 /// What was read of a file.
@@ -70,14 +73,15 @@ struct File {
 }
 
 impl File {
-    fn read(bytes: &[u8], folder: Option<&Path>, limits: Limits) -> Result<Self, GltfError> {
-        let mut gauge = Gauge::new(limits, bytes)?;
+    fn read(bytes: &[u8], folder: Option<&Path>, desc: &ReadDesc) -> Result<Self, GltfError> {
+        let mut gauge = Gauge::new(desc, bytes)?;
         let gltf = document::parse(bytes)?;
-        let buffers = Buffers::load(&gltf, folder, limits)?;
+        let buffers = Buffers::load(&gltf, folder, desc)?;
         gauge.bytes(buffers.size() as u64)?;
         let scene = Scene::new(&gltf)?;
+        gauge.expect_faces(desc, scene.triangles_announced())?;
         let motion = Motion::new(&gltf, &scene, &buffers)?;
-        let budget = Budget::new(limits);
+        let budget = Budget::new(desc.limits);
         let mut context = Context { scene: &scene, buffers: &buffers, motion, budget, gauge };
         let mut soup = Soup::default();
         for placed in &scene.meshes {
@@ -107,7 +111,8 @@ impl File {
                     break;
                 }
                 let assembly = Assembly { weld, tolerance: desc.gltf.weld_tolerance, recovery };
-                let mut assembled = self.soup.assemble(assembly);
+                let watch = Watch::new(desc.observer.as_ref(), ReadStage::Polygons, self.soup.steps())?;
+                let mut assembled = self.soup.assemble(assembly, &watch)?;
                 has_polygons |= assembled.has_polygons;
                 let warnings = &mut assembled.desc.warnings;
                 if weld == Weld::Nodes {

@@ -20,9 +20,11 @@ pub(super) fn parse(text: &[u8], desc: &ReadDesc) -> AtLine<Draft> {
     if text.iter().take(4096).any(|&byte| byte == 0) {
         return Err((1, ObjError::NotText));
     }
-    let gauge = Gauge::new(desc.limits, text).map_err(|error| (1, error.into()))?;
+    let gauge = Gauge::new(desc, text).map_err(|error| (1, error.into()))?;
     let mut reader = Reader::new(gauge, desc.repair.is_some());
-    for (number, line) in Lines::new(text) {
+    let mut lines = Lines::new(text);
+    while let Some((number, line)) = lines.next() {
+        reader.gauge.left(lines.left()).map_err(|error| (number, error.into()))?;
         reader.statement(&line, number).map_err(|error| (number, error))?;
     }
     reader.finish()
@@ -93,6 +95,7 @@ impl Reader {
         let counts = Counts { vertices: self.positions.len(), uv: self.uv_values.len() };
         let start = self.face_vertices.len();
         for word in words {
+            self.gauge.part()?;
             let Corner { vertex, uv } = corner(word, counts)?;
             self.face_vertices.push(vertex);
             self.uv_indices.push(uv);

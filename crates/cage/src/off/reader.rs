@@ -15,15 +15,17 @@ type AtLine<T> = Result<T, (u32, OffError)>;
 
 pub(super) fn parse(text: &[u8], desc: &ReadDesc) -> AtLine<Draft> {
     let mut lines = Lines { lines: PhysicalLines::new(text) };
-    let gauge = Gauge::new(desc.limits, text).map_err(|error| (1, error.into()))?;
+    let gauge = Gauge::new(desc, text).map_err(|error| (1, error.into()))?;
     let header = header::read(&mut lines)?;
     let mut reader = Reader::new(header, gauge, text.len());
     for found in 0..header.vertices {
         let (at, line) = lines.due("vertex", found, header.vertices)?;
+        reader.gauge.left(lines.lines.left()).map_err(|error| (at, error.into()))?;
         reader.vertex(line).map_err(|error| (at, error))?;
     }
     for found in 0..header.faces {
         let (at, line) = lines.due("face", found, header.faces)?;
+        reader.gauge.left(lines.lines.left()).map_err(|error| (at, error.into()))?;
         reader.face(line, at, desc.repair.is_some()).map_err(|error| (at, error))?;
     }
     Ok(reader.finish(lines.count()))
@@ -93,6 +95,7 @@ impl Reader {
         let announced = integer(first).filter(|&n| n >= 0).ok_or_else(|| OffError::CornerCount(quoted(first)))?;
         let start = self.desc.face_vertices.len();
         for found in 0..usize::try_from(announced).unwrap_or(usize::MAX) {
+            self.gauge.part()?;
             // What follows the corners is a colour.
             let word = words.next().ok_or(OffError::MissingCorners { announced, found })?;
             let index = integer(word).and_then(|i| usize::try_from(i).ok()).filter(|&i| i < self.vertices);
