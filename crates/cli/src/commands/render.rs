@@ -1,20 +1,20 @@
-//! `render`: a picture.
+//! `render`: a picture, or one for each frame of an animation.
 
 use crate::args::GlobalArgs;
 use crate::device::with_engine;
-use crate::failure::{Failure, PLACE_HINT, Verdict};
-use crate::input::{Input, InputArgs};
-use crate::options::{CameraArgs, Colour, Output, SchemeName, TessellationArgs};
+use crate::failure::{Failure, Verdict};
+use crate::input::InputArgs;
+use crate::options::{AnimationArgs, CameraArgs, Colour, NumberedPath, Output, SchemeName, TessellationArgs};
 use crate::progress::Progress;
-use crate::stdout;
 use clap::{Args, ValueEnum};
-use osculate::{Difference, Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, render, render_difference};
-use osculate_cage::Cage;
-use osculate_compare::Picture;
-use std::fmt;
+use osculate::{RenderDesc, Scheme, Shade};
+use osculate_cage::Bounds;
 use std::path::PathBuf;
 
-/// Draw the surface to a PNG file.
+mod film;
+mod scene;
+
+/// Draw the surface to a PNG file, or an animation to numbered ones.
 ///
 /// No window is needed. Without options the whole cage is shown, lit, in 1024 x 1024 pixels.
 #[derive(Args, Debug)]
@@ -23,7 +23,7 @@ pub(crate) struct RenderArgs {
     #[command(flatten)]
     input: InputArgs,
 
-    /// The picture to write.
+    /// The picture to write; for --frames with the place of the number in its name, such as frame_%04d.png.
     #[arg(short, long, value_name = "FILE.png")]
     output: PathBuf,
 
@@ -39,6 +39,9 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     camera: CameraArgs,
+
+    #[command(flatten)]
+    animation: AnimationArgs,
 }
 
 /// What the picture looks like.
@@ -121,6 +124,8 @@ Examples:
   osculate render cube.obj -o cube.png
   osculate render cube.obj -o cube.png --shade patches --cage --size 800x600
   osculate render cube.obj -o far.png --shade difference --against stam
+  osculate render walk.glb -o step.png --time 0.4
+  osculate render walk.glb -o frame_%04d.png --frames 0..31 --fps 24
   osculate render cube.obj -o close.png --camera 2,1,3:0,0,0:0,1,0:30 --adaptive 6 --background white";
 
 /// Grey of the shade `peer`, the same number in all channels of a picture without sRGB encoding.
@@ -141,18 +146,23 @@ fn samples(text: &str) -> Result<u32, String> {
 pub(crate) struct Job {
     input: InputArgs,
     output: Output<()>,
+    /// Where the pictures of a sequence go.
+    numbered: Option<NumberedPath>,
     scheme: Scheme,
     /// What the shade difference compares with.
     against: Option<Scheme>,
     look: LookArgs,
     tessellation: TessellationArgs,
     camera: CameraArgs,
+    animation: AnimationArgs,
 }
 
 impl RenderArgs {
     /// Checks the scheme and the place of the output.
     pub(crate) fn validate(self) -> Result<Job, Failure> {
+        let numbered = self.animation.is_sequence().then(|| NumberedPath::new(&self.output)).transpose()?;
         Ok(Job {
+            numbered,
             output: Output::new(self.output, &[("png", ())])?.apart_from([self.input.file.as_path()])?,
             scheme: self.scheme.in_this_build()?,
             against: self.look.against()?,
@@ -160,6 +170,7 @@ impl RenderArgs {
             look: self.look,
             tessellation: self.tessellation,
             camera: self.camera,
+            animation: self.animation,
         })
     }
 }
@@ -179,77 +190,31 @@ impl LookArgs {
     }
 }
 
-/// Draws and writes the picture.
+/// Draws and writes the picture, or those of a sequence.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let input = job.input.read(global)?;
-    let _progress = Progress::waiting(global.quiet, "drawing");
-    let desc = job.desc(&input.cage)?;
-    let (drawn, difference) = with_engine(global, |engine: &Engine| job.draw(engine, &input, &desc))?;
-    let [width, height] = drawn.size;
-    let picture = Picture::new(width, height, drawn.rgba).map_err(Failure::device)?;
-    let first = picture.pixels().next();
-    if picture.pixels().all(|pixel| Some(pixel) == first) {
-        tracing::warn!(
-            "{}: the picture is blank: the surface is out of view, too small to be seen, or fills it evenly",
-            job.output.path.display()
-        );
-    }
-    picture.write(&job.output.path).map_err(|error| Failure::usage(error).with_hint(PLACE_HINT))?;
-    tracing::info!("{}: {width} x {height} pixels, {} bytes", job.output.path.display(), job.output.bytes());
-    if let (Some(difference), Some(against)) = (difference, job.against) {
-        let size = 2.0 * input.cage.bounds().half_diagonal();
-        stdout::print_line(Distances { difference, schemes: [job.scheme, against], size })?;
-    }
+    let film = job.animation.film(&job.input.file, &input.cage)?;
+    let _progress = (!job.animation.is_sequence()).then(|| Progress::waiting(global.quiet, "drawing"));
+    with_engine(global, |engine| match &film {
+        Some(film) => job.draw_film(engine, &input, film, global),
+        None => job.draw_still(engine, &input),
+    })?;
     Ok(Verdict::Pass)
 }
 
-/// What the colours of the shade difference stand for.
-struct Distances {
-    difference: Difference,
-    schemes: [Scheme; 2],
-    /// Diagonal of the cage's box.
-    size: f64,
-}
-
-impl fmt::Display for Distances {
-    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let ([from, to], Difference { largest, mean, range }) = (self.schemes, self.difference);
-        let part = if self.size > 0.0 { largest / self.size } else { 0.0 };
-        write!(
-            out,
-            "{from} to {to}: largest distance {largest:.3e} ({part:.1e} of the box's diagonal), mean {mean:.3e}; colours end at {range:.3e}"
-        )
-    }
-}
-
 impl Job {
-    fn draw(
-        &self,
-        engine: &Engine,
-        input: &Input,
-        desc: &RenderDesc,
-    ) -> Result<(osculate::Picture, Option<Difference>), Failure> {
-        let surface = |scheme| {
-            let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
-            Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))
-        };
-        let drawn = surface(self.scheme)?;
-        let Some(against) = self.against else { return Ok((render(engine, &[&drawn], desc)?, None)) };
-        let (picture, found) = render_difference(engine, [&drawn, &surface(against)?], desc, self.look.range)?;
-        Ok((picture, Some(found)))
-    }
-
-    fn desc(&self, cage: &Cage) -> Result<RenderDesc, Failure> {
-        let camera = self.camera.camera(cage.bounds())?;
+    /// What a picture of a cage in this box is like.
+    fn desc(&self, bounds: Bounds) -> Result<RenderDesc, Failure> {
+        let camera = self.camera.camera(bounds)?;
         let size = [self.camera.size.width, self.camera.size.height];
-        let default = RenderDesc::fit(cage, size);
+        let default = RenderDesc::fit_box(bounds, size);
         let shade = Shade::from(self.look.shade);
         let is_peer = shade == Shade::Peer;
         let default_background = if is_peer { PEER_BACKGROUND } else { default.background };
         let encoded = |colour: Colour| if is_peer { colour.plain() } else { colour.linear() };
         Ok(RenderDesc {
             camera,
-            tessellation: self.tessellation.tessellation(&self.camera, cage.bounds())?,
+            tessellation: self.tessellation.tessellation(&self.camera, bounds)?,
             shade,
             cage: self.look.cage,
             samples: self.look.samples.unwrap_or(if is_peer { 1 } else { default.samples }),

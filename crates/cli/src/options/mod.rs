@@ -1,17 +1,21 @@
 //! Values of options, each parsed into something that cannot be wrong.
 
+mod animation;
 mod camera;
 mod colour;
 mod level;
+mod numbered;
 mod output;
 mod read;
 mod scheme;
 mod size;
 mod tessellation;
 
+pub(crate) use animation::{AnimationArgs, Film, Moment};
 pub(crate) use camera::CameraArgs;
 pub(crate) use colour::Colour;
 pub(crate) use level::{Level, Pixels};
+pub(crate) use numbered::NumberedPath;
 pub(crate) use output::{Output, check_apart, check_place};
 pub(crate) use read::ReadArgs;
 pub(crate) use scheme::{SchemeChoice, SchemeName};

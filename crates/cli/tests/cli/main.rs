@@ -1,5 +1,6 @@
 //! The command from outside: what it prints, writes and exits with.
 
+mod animation;
 mod check;
 mod claims;
 mod command_line;
