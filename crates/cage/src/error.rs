@@ -4,7 +4,9 @@ use std::path::{Path, PathBuf};
 
 use crate::listed::numbered;
 use crate::progress::Cancelled;
-use crate::{GltfError, LimitError, Listed, ObjError, OffError, PlyError, TagError, TopologyError};
+use crate::{
+    GltfError, LimitError, Listed, ObjError, OffError, PlyError, SequenceError, TagError, TopologyError, UsdError,
+};
 
 /// Why a [`CageDesc`](crate::CageDesc) is not a cage. Indices count from 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -149,7 +151,7 @@ pub enum ReadError {
         error: std::io::Error,
     },
     /// The name of the file ends in nothing we know.
-    #[error("{}: unknown kind of file; the name must end in .obj, .ply, .off, .gltf or .glb", .file.display())]
+    #[error("{}: unknown kind of file; the name must end in .obj, .ply, .off, .gltf, .glb or .usd (.usda, .usdc, .usdz)", .file.display())]
     UnknownFormat {
         /// The file.
         file: PathBuf,
@@ -197,6 +199,22 @@ pub enum ReadError {
         file: String,
         /// What is wrong with it.
         error: GltfError,
+    },
+    /// A USD file is malformed, or needs others.
+    #[error("{file}: {error}")]
+    Usd {
+        /// The name of the file.
+        file: String,
+        /// What is wrong with it.
+        error: UsdError,
+    },
+    /// Files or time samples are not the frames of one cage.
+    #[error("{file}: {error}")]
+    Sequence {
+        /// The file or pattern.
+        file: String,
+        /// What is wrong.
+        error: SequenceError,
     },
     /// The file is well formed but what it holds is not a cage.
     #[error("{file}{}: {error}{}", .line.map(|line| format!(":{line}")).unwrap_or_default(), .error.counting())]

@@ -1,4 +1,4 @@
-//! Control cages: reading OBJ, PLY, OFF and glTF, repair, validation, topology.
+//! Control cages: reading OBJ, PLY, OFF, USD and glTF, repair, validation, topology.
 //!
 //! A [`Cage`] is valid by construction: a closed or open, oriented, manifold mesh of polygons with finite positions. Whatever a
 //! file holds, reading it ends in a cage or in an error that names the file, the line or the elements at fault; nothing after
@@ -28,9 +28,11 @@ mod read;
 mod reference;
 mod repair;
 mod rig;
+mod sequence;
 mod tags;
 mod text;
 mod topology;
+mod usd;
 mod warning;
 mod weld;
 
@@ -53,8 +55,10 @@ pub use rig::{
     Animation, AnimationChannel, AnimationSampler, Interpolation, Joint, MorphSet, MorphTarget, NodeProperty,
     NodeTransform, Pose, Rig, RigNode,
 };
+pub use sequence::{Sequence, SequenceError};
 pub use tags::{BoundaryRule, Corner, Crease, CreaseMethod, TagError, Tags};
 pub use topology::{EdgeFaces, FaceCorner, Fans, Ring, Topology, TopologyError};
+pub use usd::{UsdError, read_usd};
 pub use warning::Warning;
 
 /// The index that means "none": the twin of a boundary half-edge, the half-edge of a vertex without faces.

@@ -103,6 +103,7 @@ pub(crate) fn plural(n: usize, noun: &str) -> String {
             Some(kind) => format!("{n} {kind}vertices"),
             // A word that is its own plural.
             None if noun == "uv" => format!("{n} uv"),
+            None if noun.ends_with("mesh") || noun.ends_with("patch") => format!("{n} {noun}es"),
             // "sets of targets", but "edges".
             None => match noun.split_once(" of ") {
                 Some((noun, of)) => format!("{n} {noun}s of {of}"),

@@ -3,7 +3,8 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use crate::{Cage, CreaseDesc, GltfDesc, Limits, ReadError, ReadObserver, RepairDesc, obj, off, ply, read_gltf};
+use crate::draft::Draft;
+use crate::{Cage, CreaseDesc, GltfDesc, Limits, ReadError, ReadObserver, RepairDesc, obj, off, ply, read_gltf, usd};
 
 /// How files become cages.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -32,6 +33,8 @@ pub enum FileFormat {
     Off,
     /// glTF, in text or binary.
     Gltf,
+    /// Universal Scene Description, in text, binary or a package.
+    Usd,
 }
 
 impl FileFormat {
@@ -47,6 +50,7 @@ impl FileFormat {
             "ply" => Some(Self::Ply),
             "off" => Some(Self::Off),
             "gltf" | "glb" => Some(Self::Gltf),
+            "usd" | "usda" | "usdc" | "usdz" => Some(Self::Usd),
             _ => None,
         }
     }
@@ -57,13 +61,15 @@ impl FileFormat {
             b"ply" => Some(Self::Ply),
             word if word.starts_with(b"glTF") => Some(Self::Gltf),
             word if off::is_keyword(word) => Some(Self::Off),
+            _ if usd::is_usd(bytes) => Some(Self::Usd),
             _ => None,
         }
     }
 }
 
 impl Cage {
-    /// Reads a cage from a file of any [`FileFormat`]: `.obj`, `.ply`, `.off`, `.gltf`, `.glb`.
+    /// Reads a cage from a file of any [`FileFormat`]: `.obj`, `.ply`, `.off`, `.gltf`, `.glb`, `.usd`, `.usda`, `.usdc`,
+    /// `.usdz`.
     ///
     /// # Errors
     /// A file that cannot be read, is malformed or does not hold a cage. The message starts with the file and, where there is
@@ -92,16 +98,39 @@ impl Cage {
     }
 
     fn read_owned_or_borrowed(bytes: Cow<'_, [u8]>, path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {
+        match Parsed::new(&bytes, path, desc)? {
+            Parsed::Draft(draft) => {
+                // The text is as large as what was made of it, and no longer needed.
+                drop(bytes);
+                draft.finish(&path.display().to_string(), desc)
+            }
+            Parsed::Cage(cage) => Ok(*cage),
+        }
+    }
+}
+
+/// What a file holds.
+pub(crate) enum Parsed {
+    /// A mesh as the file has it.
+    Draft(Draft),
+    /// A cage at once, where the format has no mesh of its own.
+    Cage(Box<Cage>),
+}
+
+impl Parsed {
+    /// Reads bytes as the file at `path`.
+    pub(crate) fn new(bytes: &[u8], path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {
         let name = path.display().to_string();
-        let draft = match FileFormat::of(path, &bytes).ok_or_else(|| ReadError::UnknownFormat { file: path.into() })? {
-            FileFormat::Obj => obj::draft(&bytes, &name, desc)?,
-            FileFormat::Ply => ply::draft(&bytes, &name, desc)?,
-            FileFormat::Off => off::draft(&bytes, &name, desc)?,
-            FileFormat::Gltf => return read_gltf(&bytes, &name, path.parent(), desc),
+        let draft = match FileFormat::of(path, bytes).ok_or_else(|| ReadError::UnknownFormat { file: path.into() })? {
+            FileFormat::Obj => obj::draft(bytes, &name, desc)?,
+            FileFormat::Ply => ply::draft(bytes, &name, desc)?,
+            FileFormat::Off => off::draft(bytes, &name, desc)?,
+            FileFormat::Usd => usd::draft(bytes, &name, desc)?,
+            FileFormat::Gltf => {
+                return read_gltf(bytes, &name, path.parent(), desc).map(Box::new).map(Self::Cage);
+            }
         };
-        // The text is as large as what was made of it, and no longer needed.
-        drop(bytes);
-        draft.finish(&name, desc)
+        Ok(Self::Draft(draft))
     }
 }
 
@@ -127,6 +156,9 @@ mod tests {
         assert_eq!(format("a.off", "8 6 12\n"), Some(FileFormat::Off));
         assert_eq!(format("a.ply", "glTF\x02\0\0\0"), Some(FileFormat::Gltf));
         assert_eq!(format("a.obj", "plywood"), Some(FileFormat::Obj));
+        assert_eq!(format("a.obj", "#usda 1.0"), Some(FileFormat::Usd));
+        assert_eq!(format("a", "PXR-USDC\0\x08"), Some(FileFormat::Usd));
+        assert_eq!(format("a.usdz", "PK\x03\x04"), Some(FileFormat::Usd));
         assert_eq!(format("a.stl", "solid"), None);
     }
 
@@ -148,7 +180,8 @@ mod tests {
             let message = Cage::read(&file).expect_err("must be refused").to_string();
             message.strip_prefix(&*file.to_string_lossy()).expect("the file comes first").to_string()
         };
-        let unknown = ": unknown kind of file; the name must end in .obj, .ply, .off, .gltf or .glb";
+        let unknown =
+            ": unknown kind of file; the name must end in .obj, .ply, .off, .gltf, .glb or .usd (.usda, .usdc, .usdz)";
         assert_eq!(refused("a.stl", TRIANGLE), unknown);
         assert_eq!(refused("obj", TRIANGLE), unknown);
         assert_eq!(refused("empty", ""), unknown);

@@ -78,6 +78,12 @@ pub enum Warning {
     /// The nodes of a glTF scene touch in a way that is no manifold, so they were not welded to each other.
     #[error("{} welded each by itself, because together they are not manifold", plural(*.0, "node"))]
     WeldedByNode(usize),
+    /// Meshes of a USD file whose rules at boundaries, seams or triangles differ from those of the first mesh, which hold for all.
+    #[error("{counted} with other rules (interpolateBoundary, faceVaryingLinearInterpolation, triangleSubdivisionRule) than the first, which hold for all: {0}", counted = .0.count("mesh"))]
+    UsdRules(Listed<String>),
+    /// Meshes of a USD file that are not meant to be smoothed by Catmull and Clark's scheme.
+    #[error("{counted} with another subdivisionScheme than catmullClark, smoothed all the same: {0}", counted = .0.count("mesh"))]
+    UsdSchemes(Listed<String>),
 }
 
 fn already(tagged: usize) -> String {
