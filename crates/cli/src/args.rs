@@ -1,6 +1,6 @@
 //! The command line as a whole; each command's own options are in its file under `commands`.
 
-use crate::commands::{check, compare, export, inspect, render, repair, sample};
+use crate::commands::{bench, check, compare, export, inspect, render, repair, sample};
 use clap::{ArgAction, Args, Parser, Subcommand};
 
 /// Catmull-Clark surfaces through Vulkan's tessellation stages, from the command line.
@@ -53,6 +53,7 @@ pub(crate) enum Command {
     Check(check::CheckArgs),
     Inspect(inspect::InspectArgs),
     Repair(repair::RepairArgs),
+    Bench(bench::BenchArgs),
     Compare(compare::CompareArgs),
 }
 

@@ -11,6 +11,7 @@ mod interruption;
 mod logging;
 mod mesh;
 mod options;
+mod postponement;
 mod progress;
 mod samples;
 mod shortest;
@@ -34,6 +35,10 @@ fn main() -> ExitCode {
     let start = Instant::now();
     let result = run(cli);
     tracing::info!("{:.2} s", start.elapsed().as_secs_f64());
+    #[cfg(unix)]
+    if result.is_ok() {
+        interruption::conclude();
+    }
     end(result)
 }
 
@@ -60,6 +65,7 @@ fn run(cli: Cli) -> Result<Verdict, Failure> {
         Some(Command::Render(args)) => commands::render::run(&args.validate()?, global),
         Some(Command::Sample(args)) => commands::sample::run(&args.validate()?, global),
         Some(Command::Export(args)) => commands::export::run(&args.validate()?, global),
+        Some(Command::Bench(args)) => commands::bench::run(&args.validate()?, global),
         Some(Command::Check(args)) => commands::check::run(&args.validate()?, global),
         Some(Command::Inspect(args)) => commands::inspect::run(&args.validate()?, global),
         Some(Command::Repair(args)) => commands::repair::run(&args.validate()?, global),

@@ -1,5 +1,6 @@
 //! The commands, one file each: its options as they are typed, what they mean once validated, and the work.
 
+pub(crate) mod bench;
 pub(crate) mod check;
 pub(crate) mod compare;
 pub(crate) mod export;

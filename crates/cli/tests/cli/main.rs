@@ -1,6 +1,7 @@
 //! The command from outside: what it prints, writes and exits with.
 
 mod animation;
+mod bench;
 mod check;
 mod claims;
 mod command_line;
