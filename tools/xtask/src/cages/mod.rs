@@ -8,12 +8,14 @@ use std::path::{Path, PathBuf};
 use anyhow::{Context, ensure};
 
 mod creature;
+mod glb;
 mod mesh;
 mod obj;
 mod primitives;
 mod readme;
 mod rng;
 mod shell;
+mod skin;
 mod sphere;
 mod star;
 mod survey;
@@ -21,6 +23,7 @@ mod triangles;
 mod voxels;
 
 use mesh::Mesh;
+use skin::Skin;
 use survey::Survey;
 
 /// One shipped cage.
@@ -30,15 +33,29 @@ struct Asset {
     /// One line: what the cage exercises.
     exercises: &'static str,
     mesh: Mesh,
+    /// What moves it; such a cage is a binary glTF file, any other one OBJ text.
+    skin: Option<Skin>,
 }
 
 impl Asset {
     fn new(name: impl Into<String>, exercises: &'static str, mesh: Mesh) -> Self {
-        Self { name: name.into(), exercises, mesh }
+        Self { name: name.into(), exercises, mesh, skin: None }
+    }
+
+    fn animated(name: impl Into<String>, exercises: &'static str, (mesh, skin): (Mesh, Skin)) -> Self {
+        Self { name: name.into(), exercises, mesh, skin: Some(skin) }
     }
 
     fn file_name(&self) -> String {
-        format!("{}.obj", self.name)
+        format!("{}.{}", self.name, if self.skin.is_some() { "glb" } else { "obj" })
+    }
+
+    fn bytes(&self) -> Vec<u8> {
+        let comment = format!("{}: {}", self.name, self.exercises);
+        match &self.skin {
+            Some(skin) => glb::to_glb(&self.mesh, skin, &comment),
+            None => obj::to_obj(&self.mesh, &comment).into_bytes(),
+        }
     }
 }
 
@@ -79,6 +96,11 @@ fn assets() -> Vec<Asset> {
         ),
         Asset::new("triangles", "closed cage of triangles only, valence 4 to 9", triangles::pebble()),
         Asset::new("dragon", "the creature of the pictures: all quads, valence 3 to 6, uv", creature::dragon()),
+        Asset::animated(
+            "dragon_walk",
+            "the dragon with a skeleton and a walk on the spot that loops: 36 joints, four to a vertex",
+            creature::walking_dragon(),
+        ),
     ]);
     assets
 }
@@ -88,17 +110,17 @@ fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/cages")
 }
 
-/// Name and text of every file that belongs in [`folder`].
-fn files() -> anyhow::Result<Vec<(String, String)>> {
+/// Name and content of every file that belongs in [`folder`].
+fn files() -> anyhow::Result<Vec<(String, Vec<u8>)>> {
     let assets = assets();
     let mut files = Vec::with_capacity(assets.len() + 1);
     let mut rows = Vec::with_capacity(assets.len());
     for asset in &assets {
         let survey = Survey::of(&asset.mesh).with_context(|| format!("{} is not fit to ship", asset.file_name()))?;
-        files.push((asset.file_name(), obj::to_obj(&asset.mesh, &format!("{}: {}", asset.name, asset.exercises))));
+        files.push((asset.file_name(), asset.bytes()));
         rows.push((asset, survey));
     }
-    files.push(("README.md".into(), readme::text(&rows)));
+    files.push(("README.md".into(), readme::text(&rows).into_bytes()));
     Ok(files)
 }
 
@@ -106,9 +128,9 @@ fn files() -> anyhow::Result<Vec<(String, String)>> {
 pub(crate) fn write() -> anyhow::Result<()> {
     let folder = folder();
     fs::create_dir_all(&folder).with_context(|| format!("cannot create {}", folder.display()))?;
-    for (name, text) in files()? {
+    for (name, content) in files()? {
         let path = folder.join(name);
-        fs::write(&path, text).with_context(|| format!("cannot write {}", path.display()))?;
+        fs::write(&path, content).with_context(|| format!("cannot write {}", path.display()))?;
     }
     Ok(())
 }
@@ -118,10 +140,9 @@ pub(crate) fn check() -> anyhow::Result<()> {
     let folder = folder();
     let expected = files()?;
     let mut wrong: Vec<String> = Vec::new();
-    for (name, text) in &expected {
-        // Git may have turned line ends on the way to this machine; that is no difference.
-        match fs::read_to_string(folder.join(name)) {
-            Ok(found) if found.replace("\r\n", "\n") == *text => {}
+    for (name, content) in &expected {
+        match fs::read(folder.join(name)) {
+            Ok(found) if same(name, &found, content) => {}
             Ok(_) => wrong.push(format!("{name} differs")),
             Err(error) => wrong.push(format!("{name} cannot be read: {error}")),
         }
@@ -134,6 +155,12 @@ pub(crate) fn check() -> anyhow::Result<()> {
     }
     ensure!(wrong.is_empty(), "assets/cages is out of date: {}; run `cargo xtask cages`", wrong.join(", "));
     Ok(())
+}
+
+/// Whether two files are the same. Git may have turned line ends of text on the way to this machine; that is no difference.
+fn same(name: &str, found: &[u8], expected: &[u8]) -> bool {
+    let lines = |text: &[u8]| String::from_utf8_lossy(text).replace("\r\n", "\n");
+    found == expected || (!name.ends_with(".glb") && lines(found) == lines(expected))
 }
 
 #[cfg(test)]
@@ -153,15 +180,15 @@ mod tests {
     #[test]
     fn names_are_unique_and_files_small() {
         let files = files().unwrap();
-        for (index, (name, text)) in files.iter().enumerate() {
+        for (index, (name, content)) in files.iter().enumerate() {
             assert!(files[..index].iter().all(|(earlier, _)| earlier != name), "{name} occurs twice");
-            assert!(text.len() < 1 << 20, "{name} has {} bytes", text.len());
+            assert!(content.len() < 1 << 20, "{name} has {} bytes", content.len());
         }
     }
 
     #[test]
     fn closed_cages_are_closed_and_wound_outward() {
-        for name in ["cube", "pyramid", "torus", "twohole", "ngon", "uvsphere", "triangles", "dragon"] {
+        for name in ["cube", "pyramid", "torus", "twohole", "ngon", "uvsphere", "triangles", "dragon", "dragon_walk"] {
             let survey = survey(name);
             assert!(survey.is_closed(), "{name} is open");
             assert!(survey.volume > 0.0, "{name} is inside out");

@@ -55,6 +55,12 @@ const MOUTH_DEPTH: [f64; 8] = [0.24, 0.22, 0.20, 0.20, 0.20, 0.20, 0.17, 0.03];
 /// Angle in degrees by which the mouth and the lips beside it rise towards its corner, by row.
 const SMILE: [f64; 8] = [0.0, 0.0, 0.0, 0.0, 1.0, 4.0, 9.0, 8.0];
 
+/// The middle of the loft at a row, between rows too.
+pub(super) fn middle(row: f64) -> DVec3 {
+    let [z, y, ..] = sample(RINGS, row);
+    dvec3(0.0, y, z)
+}
+
 /// Lofts nose, head, neck, body and tail; returns the sheet.
 pub(super) fn body(half: &mut Half) -> SheetId {
     let last = RINGS[RINGS.len() - 1].0 as usize;

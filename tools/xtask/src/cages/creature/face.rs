@@ -6,7 +6,7 @@ use std::ops::Range;
 use glam::{DQuat, DVec3, dvec3};
 
 use super::eyeball::eyeball;
-use super::half::{Half, Sheet, SheetId};
+use super::half::{Half, Part, Sheet, SheetId};
 use super::tube::{Ring, TubeDesc, Turn, first_spoke, tube};
 
 /// Radius of the eyeball's cage.
@@ -14,9 +14,11 @@ const EYE: f64 = 0.150;
 
 /// Everything on the head that isn't part of the loft.
 pub(super) fn face(half: &mut Half, trunk: SheetId) {
+    half.growing = Part::Head;
     eye(half, trunk);
     nostril(half, trunk);
     horn(half, trunk);
+    half.growing = Part::Ear;
     ear(half, trunk);
 }
 

@@ -10,6 +10,22 @@ use glam::{DVec3, dvec3};
 /// Index of a sheet.
 pub(super) type SheetId = usize;
 
+/// What a vertex belongs to: which joints may move it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) enum Part {
+    /// The loft from nose to tail.
+    #[default]
+    Trunk,
+    /// Eyes, nostrils and horns.
+    Head,
+    Ear,
+    Foreleg,
+    HindLeg,
+    Wing,
+    /// The spines along the back.
+    Ridge,
+}
+
 /// A grid of vertices.
 pub(super) struct Sheet {
     /// Vertices by row and column.
@@ -34,6 +50,10 @@ pub(super) struct Half {
     pub(super) points: Vec<DVec3>,
     /// How far fairing moves each vertex towards the middle of its neighbours, from 0 (fixed) to 1.
     pub(super) softness: Vec<f64>,
+    /// The part of each vertex.
+    pub(super) parts: Vec<Part>,
+    /// The part that grows: that of new vertices.
+    pub(super) growing: Part,
     pub(super) sheets: Vec<Sheet>,
     pub(super) cells: Vec<Cell>,
 }
@@ -44,6 +64,7 @@ impl Half {
         let first = self.points.len();
         self.points.extend(points);
         self.softness.resize(self.points.len(), softness);
+        self.parts.resize(self.points.len(), self.growing);
         (first..self.points.len()).collect()
     }
 

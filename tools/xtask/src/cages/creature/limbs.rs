@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use glam::{DVec3, dvec3};
 
-use super::half::{Half, SheetId};
+use super::half::{Half, Part, SheetId};
 use super::tube::{Ring, TubeDesc, Turn, tube};
 
 /// Quads from the leg's outer side that are cut from the trunk for a leg.
@@ -42,7 +42,9 @@ const HIND_LEG: LegDesc = LegDesc {
 
 /// Grows both legs of the right half.
 pub(super) fn legs(half: &mut Half, trunk: SheetId) {
+    half.growing = Part::Foreleg;
     leg(half, trunk, &FORELEG);
+    half.growing = Part::HindLeg;
     leg(half, trunk, &HIND_LEG);
 }
 

@@ -1,6 +1,6 @@
 //! From the right half to the whole: mirror image, texture coordinates.
 
-use glam::{DVec2, DVec3, dvec2};
+use glam::{DVec2, dvec2};
 
 use super::super::mesh::{Mesh, Uv, Welder};
 use super::half::{Cell, Half, Sheet, reflect};
@@ -9,8 +9,12 @@ use super::pack::pack;
 /// Space between charts, in units of the model.
 const MARGIN: f64 = 0.03;
 
-/// Half and mirror image as one mesh. A sheet on the plane of symmetry makes one chart, any other sheet two.
-pub(super) fn whole(half: &Half) -> Mesh {
+/// Where a vertex of the whole comes from: a vertex of the half, and whether this is its mirror image.
+pub(super) type Source = (usize, bool);
+
+/// Half and mirror image as one mesh, and where its vertices come from. A sheet on the plane of symmetry makes one chart, any other
+/// sheet two.
+pub(super) fn whole(half: &Half) -> (Mesh, Vec<Source>) {
     let charts = Charts::of(half);
     let (mut points, mut uv) = (Welder::new(), Welder::new());
     let (mut faces, mut uv_faces) = (Vec::new(), Vec::new());
@@ -32,13 +36,14 @@ pub(super) fn whole(half: &Half) -> Mesh {
             uv_faces.push(coordinates);
         }
     }
-    Mesh { uv: Some(Uv { points: uv.points, faces: uv_faces }), ..Mesh::new(points.points, faces) }
+    let place = |&(vertex, left): &Source| if left { reflect(half.points[vertex]) } else { half.points[vertex] };
+    let mesh = Mesh::new(points.points.iter().map(place).collect(), faces);
+    (Mesh { uv: Some(Uv { points: uv.points, faces: uv_faces }), ..mesh }, points.points)
 }
 
-fn weld(welder: &mut Welder<(usize, bool), DVec3>, half: &Half, vertex: usize, left: bool) -> usize {
-    let point = half.points[vertex];
-    let left = left && point.x != 0.0;
-    welder.index((vertex, left), || if left { reflect(point) } else { point })
+fn weld(welder: &mut Welder<Source, Source>, half: &Half, vertex: usize, left: bool) -> usize {
+    let source = (vertex, left && half.points[vertex].x != 0.0);
+    welder.index(source, || source)
 }
 
 /// Row and column of a quad's corners, columns not wrapped: a closed sheet has a seam.
@@ -125,20 +130,22 @@ fn flatten(half: &Half, sheet: &Sheet) -> Vec<Vec<DVec2>> {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::super::symmetric;
     use super::*;
 
     #[test]
     fn the_whole_is_its_own_mirror_image() {
         let key = |p: DVec3| [p.x, p.y, p.z].map(|x| (x * 1e9).round() as i64);
-        let mesh = whole(&symmetric());
+        let (mesh, _) = whole(&symmetric());
         let points: std::collections::BTreeSet<_> = mesh.points.iter().map(|p| key(*p)).collect();
         assert!(mesh.points.iter().all(|p| points.contains(&key(reflect(*p)))));
     }
 
     #[test]
     fn no_face_is_flipped_or_collapsed_in_the_texture() {
-        let uv = whole(&symmetric()).uv.expect("texture coordinates");
+        let uv = whole(&symmetric()).0.uv.expect("texture coordinates");
         for face in &uv.faces {
             let [a, b, c, d] = [0, 1, 2, 3].map(|corner| uv.points[face[corner]]);
             assert!((c - a).perp_dot(d - b) > 1e-7, "{face:?}");

@@ -4,6 +4,7 @@
 //! is faired, mirrored and posed.
 
 use super::mesh::Mesh;
+use super::skin::Skin;
 
 mod body;
 mod eyeball;
@@ -15,6 +16,7 @@ mod mirror;
 mod pack;
 mod pose;
 mod ridge;
+mod rig;
 mod spline;
 mod tube;
 mod wings;
@@ -23,9 +25,17 @@ use half::Half;
 
 /// The dragon: closed, all quads, its eyes components of their own.
 pub(super) fn dragon() -> Mesh {
-    let mut mesh = mirror::whole(&symmetric());
+    let (mut mesh, _) = mirror::whole(&symmetric());
     mesh.points.iter_mut().for_each(|point| *point = pose::pose(*point));
     mesh
+}
+
+/// The same dragon on four straight legs, with a skeleton and a walk.
+pub(super) fn walking_dragon() -> (Mesh, Skin) {
+    let half = symmetric();
+    let (mesh, sources) = mirror::whole(&half);
+    let skin = rig::skin(&half, &mesh, &sources);
+    (mesh, skin)
 }
 
 /// The right half before the pose.

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, dvec3};
 
-use super::half::{Half, Sheet, SheetId};
+use super::half::{Half, Part, Sheet, SheetId};
 
 /// Rows of the trunk that carry a spine, and its height.
 const SPINES: [(usize, f64); 9] =
@@ -10,6 +10,7 @@ const SPINES: [(usize, f64); 9] =
 
 /// Grows the spines.
 pub(super) fn ridge(half: &mut Half, trunk: SheetId) {
+    half.growing = Part::Ridge;
     for (row, height) in SPINES {
         spine(half, trunk, row, height);
     }

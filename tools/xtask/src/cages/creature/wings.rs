@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::half::{Half, Sheet, SheetId};
+use super::half::{Half, Part, Sheet, SheetId};
 use super::spline::{Keys, sample};
 
 /// Quads along the chord.
@@ -33,6 +33,7 @@ const SCALLOP: f64 = 0.32;
 
 /// Grows the right wing.
 pub(super) fn wing(half: &mut Half, trunk: SheetId) {
+    half.growing = Part::Wing;
     let rim = half.cut(trunk, ROOT..ROOT + CHORD, 1..2);
     half.soften(&rim, 0.4);
     let mut rows = vec![rim];
