@@ -112,7 +112,7 @@ impl Cage {
 /// What a file holds.
 pub(crate) enum Parsed {
     /// A mesh as the file has it.
-    Draft(Draft),
+    Draft(Box<Draft>),
     /// A cage at once, where the format has no mesh of its own.
     Cage(Box<Cage>),
 }
@@ -130,7 +130,7 @@ impl Parsed {
                 return read_gltf(bytes, &name, path.parent(), desc).map(Box::new).map(Self::Cage);
             }
         };
-        Ok(Self::Draft(draft))
+        Ok(Self::Draft(Box::new(draft)))
     }
 }
 

@@ -70,7 +70,7 @@ const FRAMES_PER_SECOND: f64 = 24.0;
 
 impl Sequence {
     /// Opens numbered files by a pattern such as `walk_####.obj` or `walk_%04d.obj`, of any [`FileFormat`], or a single file, whose
-    /// frames are the times at which a USD file has samples; other files have one frame.
+    /// frames are the times at which a USD file has samples; other files have one frame. An observer is told of the first frame only.
     ///
     /// The numbers are those that are found in the folder, in rising order without a gap. `####` stands for at least four digits, and
     /// `%d` for a number without leading zeros.
@@ -85,7 +85,8 @@ impl Sequence {
                 let files = pattern.files()?;
                 let times = files.iter().map(|file| file.number as f64 / FRAMES_PER_SECOND).collect();
                 let first = files[0].file.clone();
-                Self::with_first(&first, desc, Frames::Files(files), times)
+                let bytes = desc.limits.read_file(&first, desc.observer.as_ref());
+                bytes.and_then(|bytes| Self::with_first(bytes, &first, desc, Frames::Files(files), times))
             }
             None => Self::open_file(path, desc),
         };
@@ -173,11 +174,9 @@ impl Sequence {
     }
 
     fn open_file(path: &Path, desc: &ReadDesc) -> Result<Self, ReadError> {
-        let still = || Self::with_first(path, desc, Frames::Still(path.into()), vec![0.0]);
         let bytes = desc.limits.read_file(path, desc.observer.as_ref())?;
         if FileFormat::of(path, &bytes) != Some(FileFormat::Usd) {
-            drop(bytes);
-            return still();
+            return Self::with_first(bytes, path, desc, Frames::Still(path.into()), vec![0.0]);
         }
         let name = path.display().to_string();
         let read = || {
@@ -196,15 +195,21 @@ impl Sequence {
             _ => Frames::Samples { document: Box::new(document), file: path.into(), stamp: stamp(path)?.1 },
         };
         let times = if times.is_empty() { vec![0.0] } else { times };
-        let mut sequence = Self { cage, frames, times, faces: Faces::default(), vertices, desc: desc.clone() };
+        let mut sequence = Self { cage, frames, times, faces: Faces::default(), vertices, desc: unobserved(desc) };
         if sequence.frame_count() > 1 {
             sequence.faces = sequence.raw(0)?.faces;
         }
         Ok(sequence)
     }
 
-    fn with_first(first: &Path, desc: &ReadDesc, frames: Frames, times: Vec<f64>) -> Result<Self, ReadError> {
-        let bytes = desc.limits.read_file(first, desc.observer.as_ref())?;
+    /// A sequence of which the first frame is in the file `first`, which has these bytes.
+    fn with_first(
+        bytes: Vec<u8>,
+        first: &Path,
+        desc: &ReadDesc,
+        frames: Frames,
+        times: Vec<f64>,
+    ) -> Result<Self, ReadError> {
         let (cage, faces, vertices) = match Parsed::new(&bytes, first, desc)? {
             Parsed::Draft(draft) => {
                 let faces = Faces::of_draft(&draft);
@@ -218,7 +223,7 @@ impl Sequence {
                 (*cage, faces, vertices)
             }
         };
-        Ok(Self { cage, frames, times, faces, vertices, desc: desc.clone() })
+        Ok(Self { cage, frames, times, faces, vertices, desc: unobserved(desc) })
     }
 
     fn raw(&self, frame: usize) -> Result<Raw, ReadError> {
@@ -305,6 +310,11 @@ impl Faces {
     fn face(&self, f: usize) -> Option<&[u32]> {
         self.vertices.get(self.offsets[f] as usize..self.offsets[f + 1] as usize)
     }
+}
+
+/// The same without the observer, which would otherwise be kept as long as the sequence.
+fn unobserved(desc: &ReadDesc) -> ReadDesc {
+    ReadDesc { observer: None, ..desc.clone() }
 }
 
 /// What a cage checks of its positions.

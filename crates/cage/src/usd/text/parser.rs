@@ -155,7 +155,9 @@ impl<'a> Parser<'a, '_> {
                         self.layer.prims[prim as usize].attribute_mut(&name, self.gauge)?.default = value;
                     }
                 }
-                _ => drop(self.lexer.skip_value()?),
+                _ => {
+                    self.lexer.skip_value()?;
+                }
             }
         }
         for Metadatum { key, value, .. } in self.metadata()? {
