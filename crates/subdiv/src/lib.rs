@@ -19,6 +19,7 @@ mod scheme;
 mod spokes;
 mod tables;
 pub mod twin;
+mod uv;
 mod weights;
 mod whole;
 
@@ -32,6 +33,7 @@ pub use records::MatrixSource;
 pub use scheme::{Scheme, UnknownScheme};
 pub use spokes::SpokeRecord;
 pub use tables::RefineTables;
+pub use uv::{EdgeUv, UvTables};
 pub use whole::{FanRecord, GatheredEdge, GatheredPatch, Gathers};
 
 /// "No such element": a missing twin, a face without patch.

@@ -84,6 +84,11 @@ impl Locator {
         self.face_offsets[face as usize + 1] - self.face_offsets[face as usize]
     }
 
+    /// The corners of a face of the cage.
+    pub(crate) fn face_corners(&self, face: u32) -> std::ops::Range<u32> {
+        self.face_offsets[face as usize]..self.face_offsets[face as usize + 1]
+    }
+
     /// The face of the cage that a half-edge belongs to.
     fn face_of(&self, half_edge: u32) -> u32 {
         self.face_offsets.partition_point(|&offset| offset <= half_edge) as u32 - 1

@@ -159,6 +159,11 @@ impl SurfacePlan {
         self.edge_records.count() + self.gathers.edges.len()
     }
 
+    /// Number of vertex records.
+    pub fn vertex_record_count(&self) -> usize {
+        self.vertex_records.count()
+    }
+
     /// Number of vectors at the start of the coefficient buffer that come from projections; control points that are gathered from them follow.
     pub fn projected_count(&self) -> u32 {
         self.gathers.patches.first().map_or(self.vector_count, |patch| patch.first)
