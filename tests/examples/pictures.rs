@@ -5,11 +5,15 @@ use std::path::{Path, PathBuf};
 use glam::DVec3;
 use osculate::{Cage, Camera, Device, DeviceDesc, Engine, RenderDesc, Scheme, Shade, Tessellation};
 use osculate_compare::Picture;
-use osculate_tests::{legend, picture, zoo};
+use osculate_tests::{legend, moving, picture, zoo};
 
 fn main() {
     let engine = Engine::new(Device::new(&DeviceDesc::default()).unwrap_or_else(|error| panic!("{error}")));
-    write("dragon", &front(&engine));
+    // One kind of pictures alone: `cargo xtask pictures --walk`.
+    if std::env::args().any(|argument| argument == "--walk") {
+        return walk(&engine);
+    }
+    walk(&engine);
     for &shade in Shade::ALL {
         write(&format!("shade-{}", shade.name()), &dragon(&engine, [288, 240], |desc| show(desc, shade)));
     }
@@ -37,10 +41,12 @@ fn show(desc: &mut RenderDesc, shade: Shade) {
     }
 }
 
+fn folder() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/images")
+}
+
 fn write(name: &str, picture: &Picture) {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../docs/images");
-    let path: PathBuf = folder.join(format!("{name}.png"));
-    picture.write(&path).unwrap_or_else(|error| panic!("{error}"));
+    picture.write(&folder().join(format!("{name}.png"))).unwrap_or_else(|error| panic!("{error}"));
     println!("docs/images/{name}.png");
 }
 
@@ -65,13 +71,29 @@ fn difference(engine: &Engine) -> Picture {
     picture::draw_difference(engine, &cage, [Scheme::Gregory2, Scheme::Stam], None, &desc).0
 }
 
-/// The cage over the surface beside the surface alone, at twice the size and halved, which smooths outlines further.
-fn front(engine: &Engine) -> Picture {
-    let [left, right] = [true, false].map(|cage| dragon(engine, [960, 840], |desc| desc.cage = cage));
-    let rows = left.rgba().chunks(4 * 960).zip(right.rgba().chunks(4 * 960));
-    let wide = Picture::new(1920, 840, rows.flat_map(|(left, right)| [left, right].concat()).collect());
-    halved(&wide.unwrap_or_else(|error| panic!("{error}")))
+/// Two pictures of one size side by side.
+fn beside(left: &Picture, right: &Picture) -> Picture {
+    let (size, row) = (left.size(), 4 * left.size().width as usize);
+    let rows = left.rgba().chunks(row).zip(right.rgba().chunks(row));
+    let rgba = rows.flat_map(|(left, right)| [left, right].concat()).collect();
+    Picture::new(2 * size.width, size.height, rgba).unwrap_or_else(|error| panic!("{error}"))
 }
+
+/// The walk: the cage over the surface beside the surface alone, at twice the size and halved, which smooths outlines further.
+fn walk(engine: &Engine) {
+    let cage = zoo::walking_dragon();
+    let [left, right] = [true, false].map(|lines| {
+        let desc = RenderDesc { camera: zoo::walk_camera(&cage), cage: lines, ..RenderDesc::fit(&cage, WALK_SIZE) };
+        picture::draw_moments(engine, &cage, &desc, (0..WALK_FRAMES).map(|k| f64::from(k) / f64::from(WALK_FRAMES)))
+    });
+    let frames: Vec<Picture> = left.iter().zip(&right).map(|(left, right)| halved(&beside(left, right))).collect();
+    moving::write(&folder().join("walk.png"), &frames, WALK_FRAMES);
+    println!("docs/images/walk.png");
+}
+
+/// Frames of the walk, which takes a second, and twice the size of one of the two pictures of each.
+const WALK_FRAMES: u16 = 24;
+const WALK_SIZE: [u32; 2] = [640, 532];
 
 /// The picture at half its size: each pixel is the mean of four, in linear light.
 fn halved(picture: &Picture) -> Picture {

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::DVec3;
 use osculate::{
-    Camera, Difference, Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, Tessellation, render,
+    Animator, Camera, Difference, Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, Tessellation, render,
     render_difference,
 };
 use osculate_cage::Cage;
@@ -56,6 +56,26 @@ pub fn draw_difference(
     let (drawn, difference) =
         render_difference(engine, surfaces.each_ref(), desc, range).unwrap_or_else(|error| panic!("{error}"));
     (Picture::new(drawn.size[0], drawn.size[1], drawn.rgba).unwrap_or_else(|error| panic!("{error}")), difference)
+}
+
+/// Pictures of a cage as its first animation has it at some times in seconds.
+///
+/// # Panics
+/// If they cannot be drawn.
+pub fn draw_moments(
+    engine: &Engine,
+    cage: &Cage,
+    desc: &RenderDesc,
+    times: impl IntoIterator<Item = f64>,
+) -> Vec<Picture> {
+    let mut surface = Surface::new(engine, cage, &SurfaceDesc::default()).unwrap_or_else(|error| panic!("{error}"));
+    let mut animator = Animator::new(&surface, cage).unwrap_or_else(|error| panic!("{error}"));
+    let draw = |time| {
+        animator.set_time(0, time).unwrap_or_else(|error| panic!("{error}"));
+        surface.animate(&animator).unwrap_or_else(|error| panic!("{error}"));
+        draw_surfaces(engine, &[&surface], desc)
+    };
+    times.into_iter().map(draw).collect()
 }
 
 /// The picture of surfaces.

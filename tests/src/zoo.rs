@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
+use osculate::Camera;
 use osculate_cage::{Cage, CageDesc};
 
 /// A cage and what to call it.
@@ -25,6 +26,23 @@ pub fn folder() -> PathBuf {
 pub fn shipped(name: &str) -> Cage {
     let file = folder().join(format!("{name}.obj"));
     Cage::read(&file).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The dragon that walks.
+///
+/// # Panics
+/// If it cannot be read.
+pub fn walking_dragon() -> Cage {
+    Cage::read(&folder().join("dragon_walk.glb")).unwrap_or_else(|error| panic!("{error}"))
+}
+
+/// The view that pictures of the walk are taken from.
+///
+/// # Panics
+/// If the camera is refused.
+pub fn walk_camera(cage: &Cage) -> Camera {
+    let (eye, at) = (DVec3::new(4.2, 1.9, 4.4), DVec3::new(0.0, 0.99, -0.22));
+    Camera::look_at(eye, at, DVec3::Y, 28f64.to_radians(), cage.bounds()).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// All cages of the zoo.

@@ -3,7 +3,7 @@
 use osculate::{BoundaryRule, Cage, Engine, RenderDesc, Scheme, Shade, Surface, SurfaceDesc, Tessellation};
 use osculate_compare::{GoldenError, Goldens, Limits, Picture, load};
 use osculate_tests::mutation::{Mutation, mutated};
-use osculate_tests::picture::{Gallery, camera, close_up, draw, draw_surfaces};
+use osculate_tests::picture::{Gallery, camera, close_up, draw, draw_moments, draw_surfaces};
 use osculate_tests::{gpu, gpu_with_shaders, legend, zoo};
 
 const SIZE: [u32; 2] = [256, 256];
@@ -53,6 +53,24 @@ fn the_dragon() {
             desc.shade = shade;
         });
         gallery.check(&format!("dragon_{}", shade.name()), &picture);
+    }
+    gallery.finish();
+}
+
+#[test]
+fn the_dragon_walks() {
+    let gpu = gpu();
+    let mut gallery = Gallery::new(&gpu);
+    let cage = zoo::walking_dragon();
+    let desc = RenderDesc {
+        camera: zoo::walk_camera(&cage),
+        tessellation: Tessellation::uniform(4.0),
+        ..RenderDesc::fit(&cage, [288, 240])
+    };
+    let percents = [0, 30, 70];
+    let times = percents.map(|percent| f64::from(percent) / 100.0);
+    for (percent, picture) in percents.iter().zip(draw_moments(&gpu, &cage, &desc, times)) {
+        gallery.check(&format!("walk_{percent}"), &picture);
     }
     gallery.finish();
 }

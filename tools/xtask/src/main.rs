@@ -27,7 +27,11 @@ enum Verb {
         check: bool,
     },
     /// Draw the pictures of README.md and docs anew.
-    Pictures,
+    Pictures {
+        /// Only the moving picture of README.md.
+        #[arg(long)]
+        walk: bool,
+    },
     /// Measure the schemes and print the tables of docs/schemes.md.
     Schemes,
 }
@@ -37,7 +41,7 @@ fn main() -> anyhow::Result<()> {
         Verb::Bless => bless::run(),
         Verb::Cages { check: false } => cages::write(),
         Verb::Cages { check: true } => cages::check(),
-        Verb::Pictures => pictures::run(),
+        Verb::Pictures { walk } => pictures::run(walk),
         Verb::Schemes => schemes::run(),
     }
 }

@@ -1,10 +1,12 @@
-//! The pictures of README.md and docs/shading.md.
+//! The pictures of README.md and docs.
 
 use crate::cargo;
 
-/// Draws them to docs/images.
-pub(crate) fn run() -> anyhow::Result<()> {
-    let status = cargo::run(&["run", "--release", "-p", "osculate-tests", "--example", "pictures"], &[])?;
+/// Draws them to docs/images: all, or the moving one alone.
+pub(crate) fn run(walk: bool) -> anyhow::Result<()> {
+    let all = ["run", "--release", "-p", "osculate-tests", "--example", "pictures"];
+    let only: &[&str] = if walk { &["--", "--walk"] } else { &[] };
+    let status = cargo::run(&[&all[..], only].concat(), &[])?;
     anyhow::ensure!(status.success(), "the pictures were not drawn");
     Ok(())
 }
