@@ -5,7 +5,7 @@ use clap::{ArgAction, Args, Parser, Subcommand};
 
 /// Catmull-Clark surfaces through Vulkan's tessellation stages, from the command line.
 ///
-/// Reads a control cage (OBJ, PLY, OFF, glTF), puts its Catmull-Clark surface through tessellation shaders and gives you a
+/// Reads a control cage (OBJ, PLY, OFF, glTF, USD), puts its Catmull-Clark surface through tessellation shaders and gives you a
 /// picture, triangles, points, or the proof that the surface has no cracks. No window is needed.
 #[derive(Parser, Debug)]
 #[command(name = "osculate", version, after_help = EXAMPLES, subcommand_value_name = "COMMAND")]

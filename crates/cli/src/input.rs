@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use clap::{Args, ValueEnum};
 use osculate::{EngineError, PlanError};
 use osculate_cage::{
-    BoundaryRule, Cage, CageError, LimitError, ReadDesc, ReadError, ReadObserver, ReadProgress, ReadStage,
+    BoundaryRule, Cage, CageError, LimitError, ReadDesc, ReadError, ReadObserver, ReadProgress, ReadStage, Sequence,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -15,7 +15,8 @@ use std::path::{Path, PathBuf};
 /// The cage and what happens at its boundary.
 #[derive(Args, Debug)]
 pub(crate) struct InputArgs {
-    /// The control cage: .obj, .ply, .off, .gltf or .glb.
+    /// The control cage: .obj, .ply, .off, .gltf, .glb, .usd, .usda, .usdc or .usdz. Of numbered files, named by a pattern such
+    /// as walk_####.obj or walk_%04d.obj, and of time samples in a file it is the first frame.
     pub(crate) file: PathBuf,
 
     /// What happens where the cage ends. Default: what the file's tags say, else edge-and-corner.
@@ -67,16 +68,21 @@ pub(crate) struct Input {
 impl InputArgs {
     /// Reads the cage, passing its warnings on.
     pub(crate) fn read(&self, global: &GlobalArgs) -> Result<Input, Failure> {
-        let input = self.read_silently(global)?;
+        let input = self.input(read(&self.file, &self.read.desc()?, global)?);
         warn(&self.file, &input.cage);
         Ok(input)
     }
 
-    /// Reads the cage for a command whose result holds the warnings.
-    pub(crate) fn read_silently(&self, global: &GlobalArgs) -> Result<Input, Failure> {
-        let cage = read(&self.file, &self.read.desc()?, global)?;
+    /// Reads the cage and tells when its frames are, for a command whose result holds the warnings.
+    pub(crate) fn read_silently(&self, global: &GlobalArgs) -> Result<(Input, Vec<f64>), Failure> {
+        let sequence = open(&self.file, &self.read.desc()?, global)?;
+        let times = sequence.times().to_vec();
+        Ok((self.input(sequence.into_cage()), times))
+    }
+
+    fn input(&self, cage: Cage) -> Input {
         let boundary = self.boundary.map(BoundaryRule::from).or(cage.boundary_rule()).unwrap_or_default();
-        Ok(Input { cage, boundary })
+        Input { cage, boundary }
     }
 
     /// The failure for a cage of which the boundary rule leaves nothing.
@@ -97,10 +103,19 @@ impl InputArgs {
     }
 }
 
-/// Reads a cage, with a bar where that takes long.
+/// Reads a cage, the first frame of a pattern, with a bar where that takes long.
 pub(crate) fn read(file: &Path, desc: &ReadDesc, global: &GlobalArgs) -> Result<Cage, Failure> {
+    if Sequence::is_pattern(file) {
+        return open(file, desc, global).map(Sequence::into_cage);
+    }
     let desc = ReadDesc { observer: Some(show_reading(global.quiet)), ..desc.clone() };
     Cage::read_with(file, &desc).map_err(|error| refusal(error, &desc))
+}
+
+/// Reads the first frame of a sequence, with a bar where that takes long.
+fn open(file: &Path, desc: &ReadDesc, global: &GlobalArgs) -> Result<Sequence, Failure> {
+    let desc = ReadDesc { observer: Some(show_reading(global.quiet)), ..desc.clone() };
+    Sequence::open(file, &desc).map_err(|error| refusal(error, &desc))
 }
 
 /// A bar that stays as long as the observer. Reading writes nothing, so an interruption ends the process without asking it.
@@ -144,6 +159,8 @@ fn refusal(error: ReadError, desc: &ReadDesc) -> Failure {
     }
     match error {
         ReadError::Io { .. } => Failure::unreadable(error),
+        // These say what to do.
+        ReadError::Sequence { .. } => Failure::input(error),
         ReadError::UnknownFormat { .. } => Failure::input(error).with_hint("convert the model to one of these formats"),
         ReadError::Refused { error: CageError::Topology(_), .. } if desc.repair.is_none() => {
             Failure::input(error).with_hint("correct the model, or let --repair make a manifold mesh of it")

@@ -32,7 +32,8 @@ pub(crate) struct InspectArgs {
 const EXAMPLES: &str = "\
 Examples:
   osculate inspect cube.obj
-  osculate inspect cube.obj --json";
+  osculate inspect cube.obj --json
+  osculate inspect walk_####.obj";
 
 /// A cage to look at.
 pub(crate) struct Job {
@@ -52,6 +53,8 @@ impl InspectArgs {
 struct Findings {
     #[serde(flatten)]
     cage: Inspection,
+    /// What moves by frames.
+    frames: Frames,
     /// The boundary rule in force.
     boundary_rule: &'static str,
     /// What each scheme of this build makes of the cage.
@@ -59,6 +62,29 @@ struct Findings {
     /// What keeps the schemes from drawing the cage; absent if nothing does.
     #[serde(skip_serializing_if = "Option::is_none")]
     not_drawn: Option<String>,
+}
+
+/// The frames of numbered files or of time samples; one of a cage that stands still.
+#[derive(Clone, Copy, Serialize)]
+struct Frames {
+    count: usize,
+    /// When the first one is, in seconds.
+    first: f64,
+    /// When the last one is.
+    last: f64,
+}
+
+impl Frames {
+    fn new(times: &[f64]) -> Self {
+        let time = |time: Option<&f64>| time.copied().unwrap_or_default();
+        Self { count: times.len().max(1), first: time(times.first()), last: time(times.last()) }
+    }
+}
+
+impl Display for Frames {
+    fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(out, "{}, from {} s to {} s", self.count, self.first, self.last)
+    }
 }
 
 /// The patches that a scheme makes of a cage.
@@ -74,8 +100,8 @@ struct SchemePlan {
 
 /// Looks at the cage and prints what there is.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
-    let input = job.input.read_silently(global)?;
-    let findings = Findings::new(&input.cage, input.boundary);
+    let (input, times) = job.input.read_silently(global)?;
+    let findings = Findings { frames: Frames::new(&times), ..Findings::new(&input.cage, input.boundary) };
     if job.json {
         stdout::print_json(&findings)?;
     } else {
@@ -94,7 +120,13 @@ impl Findings {
             Ok(schemes) => (schemes, None),
             Err(error) => (BTreeMap::new(), Some(error.to_string())),
         };
-        Self { cage: inspect(cage), boundary_rule: boundary_name(boundary), schemes, not_drawn }
+        Self {
+            cage: inspect(cage),
+            frames: Frames::new(&[]),
+            boundary_rule: boundary_name(boundary),
+            schemes,
+            not_drawn,
+        }
     }
 
     fn text(&self) -> String {
@@ -119,6 +151,9 @@ impl Findings {
         row("genus", &cage.genus);
         row("euler", &cage.euler);
         row("tags", &tags.join(", "));
+        if self.frames.count > 1 {
+            row("frames", &self.frames);
+        }
         if let Some(polygons) = &cage.polygons {
             row("polygons", polygons);
         }

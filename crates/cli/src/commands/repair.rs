@@ -17,7 +17,7 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct RepairArgs {
-    /// The file to repair: .obj, .ply, .off, .gltf or .glb.
+    /// The file to repair: .obj, .ply, .off, .gltf, .glb, .usd, .usda, .usdc or .usdz.
     file: PathBuf,
 
     /// The cage to write.

@@ -78,3 +78,20 @@ fn what_is_not_a_cage_exits_with_3() {
     .unwrap();
     osculate(folder.path(), &["inspect", "fin.obj", "--json"]).fails(3, "fin.obj");
 }
+
+#[test]
+fn frames_are_counted() {
+    let folder = tempdir().unwrap();
+    let moved = |height: usize| CAGE.replacen("v 0 0 0", &format!("v 0 0 {height}"), 1);
+    for frame in 9..12 {
+        fs::write(folder.path().join(format!("walk_{frame:04}.obj")), moved(frame)).unwrap();
+    }
+    let found = osculate(folder.path(), &["inspect", "walk_####.obj", "--json"]).exits(0).stdout;
+    let found: Value = serde_json::from_str(&found).unwrap();
+    assert_eq!(found["frames"], json!({ "count": 3, "first": 9.0 / 24.0, "last": 11.0 / 24.0 }));
+    assert_eq!((&found["faces"], &inspect(CAGE, &[])["frames"]["count"]), (&json!(3), &json!(1)));
+    let text = osculate(folder.path(), &["inspect", "walk_%04d.obj"]).exits(0).stdout;
+    assert!(text.contains("frames           3, from 0.375 s to "), "{text}");
+    fs::remove_file(folder.path().join("walk_0010.obj")).unwrap();
+    osculate(folder.path(), &["inspect", "walk_####.obj"]).fails(3, "walk_0010.obj: frame 10 is missing");
+}
