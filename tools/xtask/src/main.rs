@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 mod bless;
 mod cages;
 mod cargo;
+mod fuzz;
 mod pictures;
 mod schemes;
 
@@ -26,6 +27,8 @@ enum Verb {
         #[arg(long)]
         check: bool,
     },
+    /// Look for inputs that readers and plans do not bear; see docs/fuzzing.md.
+    Fuzz(fuzz::Arguments),
     /// Draw the pictures of README.md and docs anew.
     Pictures {
         /// Only the moving picture of README.md.
@@ -41,6 +44,7 @@ fn main() -> anyhow::Result<()> {
         Verb::Bless => bless::run(),
         Verb::Cages { check: false } => cages::write(),
         Verb::Cages { check: true } => cages::check(),
+        Verb::Fuzz(arguments) => fuzz::run(&arguments),
         Verb::Pictures { walk } => pictures::run(walk),
         Verb::Schemes => schemes::run(),
     }
