@@ -1,5 +1,7 @@
 //! What can be wrong with a line of an OBJ file.
 
+use crate::listed::plural;
+
 /// Why a line of an OBJ file is malformed.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -51,7 +53,7 @@ pub enum ObjError {
         count: usize,
     },
     /// A face with one or two corners.
-    #[error("a face with {}; faces have at least 3", crate::listed::plural(*.0, "corner"))]
+    #[error("a face with {}; faces have at least 3", plural(*.0, "corner"))]
     TooFewCorners(usize),
     /// A limit of the reader.
     #[error(transparent)]
@@ -63,7 +65,7 @@ pub enum ObjError {
     #[error("a tag looks like `t NAME INTS/FLOATS/STRINGS ARGUMENTS`, for example `t crease 2/1/0 0 1 2.5`")]
     TagForm,
     /// A tag whose counts do not agree with what follows.
-    #[error("tag {name} announces {announced} arguments but has {found}")]
+    #[error("tag {name} announces {} but has {found}", plural(*.announced, "argument"))]
     TagCount {
         /// The name of the tag.
         name: String,
