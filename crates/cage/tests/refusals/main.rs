@@ -22,8 +22,8 @@ use std::path::{Path, PathBuf};
 use answer::answer;
 use table::Case;
 
-const TABLES: [&str; 9] =
-    ["obj", "obj_faces", "obj_tags", "ply", "off", "gltf", "gltf_buffers", "glb", "limits_and_repairs"];
+const TABLES: [&str; 10] =
+    ["obj", "obj_faces", "obj_tags", "ply", "off", "gltf", "gltf_buffers", "glb", "usd", "limits_and_repairs"];
 
 fn cases() -> Vec<(&'static str, Vec<Case>)> {
     let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("tests/refusals");
@@ -73,7 +73,7 @@ fn there_are_enough_cases_of_each_kind() {
     assert_eq!(names.len(), all.len(), "names are unique over all tables");
     let refused = all.iter().filter(|case| case.expected.starts_with("-- ")).count();
     assert!(refused >= 100, "only {refused} files are refused");
-    for (ending, least) in [(".obj", 40), (".ply", 20), (".off", 12), (".gltf", 20), (".glb", 8)] {
+    for (ending, least) in [(".obj", 40), (".ply", 20), (".off", 12), (".gltf", 20), (".glb", 8), (".usda", 20)] {
         let of_kind = names.iter().filter(|name| name.ends_with(ending)).count();
         assert!(of_kind >= least, "only {of_kind} files {ending}");
     }
