@@ -73,6 +73,17 @@ impl InputArgs {
         Ok(input)
     }
 
+    /// Reads the cage with all its frames, numbered files at that rate, passing its warnings on.
+    pub(crate) fn read_frames(&self, rate: Option<f64>, global: &GlobalArgs) -> Result<(Input, Sequence), Failure> {
+        let mut sequence = open(&self.file, &self.read.desc()?, global)?;
+        if let Some(rate) = rate {
+            sequence = sequence.with_frames_per_second(rate);
+        }
+        let input = self.input(sequence.cage().clone());
+        warn(&self.file, &input.cage);
+        Ok((input, sequence))
+    }
+
     /// Reads the cage and tells when its frames are, for a command whose result holds the warnings.
     pub(crate) fn read_silently(&self, global: &GlobalArgs) -> Result<(Input, Vec<f64>), Failure> {
         let sequence = open(&self.file, &self.read.desc()?, global)?;

@@ -125,7 +125,8 @@ Examples:
   osculate render cube.obj -o cube.png --shade patches --cage --size 800x600
   osculate render cube.obj -o far.png --shade difference --against stam
   osculate render walk.glb -o step.png --time 0.4
-  osculate render walk.glb -o frame_%04d.png --frames 0..31 --fps 24
+  osculate render walk.glb -o frame_%04d.png --frames 0..23 --fps 24
+  osculate render 'walk_####.obj' -o frame_%04d.png --frames 1..120
   osculate render cube.obj -o close.png --camera 2,1,3:0,0,0:0,1,0:30 --adaptive 6 --background white";
 
 /// Grey of the shade `peer`, the same number in all channels of a picture without sRGB encoding.
@@ -192,13 +193,15 @@ impl LookArgs {
 
 /// Draws and writes the picture, or those of a sequence.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
-    let input = job.input.read(global)?;
-    let film = job.animation.film(&job.input.file, &input.cage)?;
     let _progress = (!job.animation.is_sequence()).then(|| Progress::waiting(global.quiet, "drawing"));
-    with_engine(global, |engine| match &film {
-        Some(film) => job.draw_film(engine, &input, film, global),
-        None => job.draw_still(engine, &input),
-    })?;
+    if job.animation.is_film() {
+        let frames = job.input.read_frames(job.animation.rate(), global)?;
+        let film = job.animation.film(&job.input.file, &frames.1)?;
+        with_engine(global, |engine| job.draw_film(engine, &frames, &film, global))?;
+    } else {
+        let input = job.input.read(global)?;
+        with_engine(global, |engine| job.draw_still(engine, &input))?;
+    }
     Ok(Verdict::Pass)
 }
 

@@ -2,7 +2,7 @@
 
 use crate::failure::Failure;
 use clap::Args;
-use osculate_cage::{Animation, Bounds, Cage, Rig};
+use osculate_cage::{Animation, Bounds, Sequence};
 use std::path::Path;
 use std::str::FromStr;
 
@@ -10,7 +10,8 @@ use std::str::FromStr;
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Animation")]
 pub(crate) struct AnimationArgs {
-    /// Show the cage as it is at this time of its animation, in seconds; before and after its keys it stands still.
+    /// Show the cage as it is at this time of its animation or sequence, in seconds; before its first key or frame and
+    /// after its last it stands still.
     #[arg(long, value_name = "T", allow_negative_numbers = true, value_parser = seconds, conflicts_with = "frames")]
     time: Option<f64>,
 
@@ -19,11 +20,11 @@ pub(crate) struct AnimationArgs {
     #[arg(long, value_name = "A..B")]
     frames: Option<FrameRange>,
 
-    /// Frames per second. Default: 24.
+    /// Frames per second; of numbered files that are read too. Default: 24.
     #[arg(long, value_name = "FPS", allow_negative_numbers = true, value_parser = rate, requires = "frames")]
     fps: Option<f64>,
 
-    /// The animation, by its name or its number from 0. Default: the first.
+    /// The animation of a glTF file, by its name or its number from 0. Default: the first.
     #[arg(long, value_name = "NAME|N")]
     animation: Option<String>,
 
@@ -95,11 +96,19 @@ pub(crate) struct Moment {
     pub(crate) seconds: f64,
 }
 
-/// The moments of an animation that are drawn, at least one of all jobs together.
+/// What moves a cage.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Motion {
+    /// An animation of its rig, by index.
+    Rig(usize),
+    /// The frames of numbered files, or time samples.
+    Frames,
+}
+
+/// The moments that are drawn, at least one of all jobs together.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Film {
-    /// The animation, an index of [`Rig::animations`].
-    pub(crate) animation: usize,
+    pub(crate) motion: Motion,
     /// All moments, in whichever part they are.
     all: Vec<Moment>,
     shard: Shard,
@@ -112,24 +121,40 @@ impl AnimationArgs {
         self.frames.is_some()
     }
 
-    /// What is to be drawn of the animation of a cage; none if none was asked for.
-    pub(crate) fn film(&self, file: &Path, cage: &Cage) -> Result<Option<Film>, Failure> {
-        if self.time.is_none() && self.frames.is_none() && self.animation.is_none() {
-            return Ok(None);
-        }
-        let animations = cage.rig().map_or(&[][..], |rig| &rig.animations);
-        if animations.is_empty() {
-            return Err(Failure::usage(format_args!("{}: nothing is animated in this file", file.display()))
-                .with_hint(
-                    "leave --time, --frames and --animation away, or name a glTF file that holds an animation",
-                ));
-        }
-        Ok(Some(Film {
-            animation: self.animation.as_deref().map_or(Ok(0), |wanted| find(animations, wanted))?,
+    /// Whether any moment is asked for.
+    pub(crate) fn is_film(&self) -> bool {
+        self.time.is_some() || self.frames.is_some() || self.animation.is_some()
+    }
+
+    /// The rate of numbered files, if one is given.
+    pub(crate) fn rate(&self) -> Option<f64> {
+        self.fps
+    }
+
+    /// What is to be drawn of a file.
+    pub(crate) fn film(&self, file: &Path, sequence: &Sequence) -> Result<Film, Failure> {
+        Ok(Film {
+            motion: self.motion(file, sequence)?,
             all: self.moments(),
             shard: self.shard.unwrap_or(Shard { part: 1, parts: 1 }),
             fit_frames: self.fit_frames,
-        }))
+        })
+    }
+
+    fn motion(&self, file: &Path, sequence: &Sequence) -> Result<Motion, Failure> {
+        let animations = sequence.cage().rig().map_or(&[][..], |rig| &rig.animations);
+        match &self.animation {
+            None if sequence.frame_count() > 1 => Ok(Motion::Frames),
+            None if !animations.is_empty() => Ok(Motion::Rig(0)),
+            Some(wanted) if !animations.is_empty() => find(animations, wanted).map(Motion::Rig),
+            Some(_) if sequence.frame_count() > 1 => {
+                Err(Failure::usage(format_args!("{}: frames have no animations to choose from", file.display()))
+                    .with_hint("leave --animation away"))
+            }
+            _ => Err(Failure::usage(format_args!("{}: nothing is animated in this file", file.display())).with_hint(
+                "leave --time, --frames and --animation away, or name a glTF or USD file that moves, or numbered files",
+            )),
+        }
     }
 
     fn moments(&self) -> Vec<Moment> {
@@ -159,19 +184,11 @@ impl Film {
         self.all.iter().skip(part as usize - 1).step_by(parts as usize).copied()
     }
 
-    /// The moments of all parts: what pictures have in common must not depend on the part.
-    pub(crate) fn all_moments(&self) -> &[Moment] {
-        &self.all
-    }
-
-    /// The box that a camera is fitted to: that of the first frame, or of all.
-    pub(crate) fn bounds(&self, rig: &Rig) -> Bounds {
+    /// The box that a camera is fitted to: that of the first frame, or of all, in whichever part they are.
+    pub(crate) fn bounds<E>(&self, at: impl Fn(f64) -> Result<Bounds, E>) -> Result<Bounds, E> {
         let shown = if self.fit_frames { &self.all[..] } else { &self.all[..1] };
-        let corners = shown.iter().flat_map(|moment| {
-            let Bounds { min, max } = Bounds::of(&rig.positions(&rig.pose(self.animation, moment.seconds)));
-            [min, max]
-        });
-        Bounds::of(&corners.collect::<Vec<_>>())
+        let boxes: Vec<Bounds> = shown.iter().map(|moment| at(moment.seconds)).collect::<Result<_, _>>()?;
+        Ok(Bounds::of(&boxes.iter().flat_map(|found| [found.min, found.max]).collect::<Vec<_>>()))
     }
 }
 
@@ -203,7 +220,7 @@ mod tests {
         let all: Vec<Moment> = (0..11).map(|k| Moment { number: Some(k), seconds: 0.0 }).collect();
         for parts in [1, 3, 11, 20] {
             let of_part = |part| Film {
-                animation: 0,
+                motion: Motion::Frames,
                 all: all.clone(),
                 shard: format!("{part}/{parts}").parse().unwrap(),
                 fit_frames: false,

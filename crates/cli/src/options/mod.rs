@@ -11,7 +11,7 @@ mod scheme;
 mod size;
 mod tessellation;
 
-pub(crate) use animation::{AnimationArgs, Film, Moment};
+pub(crate) use animation::{AnimationArgs, Film, Moment, Motion};
 pub(crate) use camera::CameraArgs;
 pub(crate) use colour::Colour;
 pub(crate) use level::{Level, Pixels};

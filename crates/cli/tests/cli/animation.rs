@@ -98,13 +98,13 @@ fn the_cage_is_where_it_is_at_that_time() {
 #[test]
 fn frames_are_numbered_and_the_same_in_parts() {
     let folder = folder();
-    let frames = ["--frames", "8..12", "--fps", "10"];
+    let frames = ["--frames", "8..11", "--fps", "10"];
     render(&folder, "whole_%03d.png", &[&AHEAD[..], &frames].concat());
-    assert_eq!(names(&folder), [8, 9, 10, 11, 12].map(|k| format!("whole_{k:03}.png")));
+    assert_eq!(names(&folder), [8, 9, 10, 11].map(|k| format!("whole_{k:03}.png")));
     for part in ["1/3", "2/3", "3/3"] {
         render(&folder, "part_%d.png", &[&AHEAD[..], &frames, &["--shard", part]].concat());
     }
-    for k in 8..=12 {
+    for k in 8..=11 {
         let time = format!("{}", f64::from(k) / 10.0);
         render(&folder, "one.png", &[&AHEAD[..], &["--time", &time]].concat());
         let whole = picture(&folder, &format!("whole_{k:03}.png"));
@@ -114,6 +114,36 @@ fn frames_are_numbered_and_the_same_in_parts() {
     // More parts than frames leave some with nothing to do.
     render(&folder, "none_%d.png", &[&AHEAD[..], &["--frames", "0..1", "--shard", "3/3"]].concat());
     assert!(names(&folder).iter().all(|name| !name.starts_with("none")));
+}
+
+/// Numbered files are frames of their number at any rate. The cage space stays that of the first, so bits may differ from those of a still.
+#[test]
+fn numbered_files_are_frames() {
+    let folder = folder();
+    for (number, x) in [(3, 0.0), (4, 0.5), (5, 9.0)] {
+        let square =
+            format!("v {} -1 0\nv {} -1 0\nv {} 1 0\nv {} 1 0\nf 1 2 3 4\n", x - 1.0, x + 1.0, x + 1.0, x - 1.0);
+        fs::write(folder.path().join(format!("walk_{number:04}.obj")), square).unwrap();
+    }
+    let still = |name: &str| {
+        let arguments = [&["render", name, "-o", "still.png"], &AHEAD[..]].concat();
+        osculate(folder.path(), &arguments).exits(0);
+        picture(&folder, "still.png")
+    };
+    let stills = [3, 4, 5].map(|number| still(&format!("walk_000{number}.obj")));
+    assert_eq!(stills.each_ref().map(shows_the_square), [true, true, false]);
+    for fps in ["24", "7"] {
+        let arguments = ["render", "walk_####.obj", "-o", "f_%d.png", "--frames", "2..6", "--fps", fps];
+        osculate(folder.path(), &[&arguments, &AHEAD[..]].concat()).exits(0);
+        for (k, expected) in (2..).zip([0, 0, 1, 2, 2].map(|file| &stills[file])) {
+            let near = |(a, b): &([u8; 4], [u8; 4])| a.iter().zip(b).all(|(a, b)| a.abs_diff(*b) <= 4);
+            let found = picture(&folder, &format!("f_{k}.png"));
+            let same = found.pixels().zip(expected.pixels()).filter(near).count();
+            assert!(same >= 64 * 48 * 99 / 100, "frame {k} at {fps}: only {same} pixels are alike");
+        }
+    }
+    let arguments = ["render", "walk_####.obj", "-o", "out.png", "--time", "0.1", "--animation", "0"];
+    osculate(folder.path(), &arguments).fails(2, "no animations to choose from");
 }
 
 #[test]
