@@ -30,4 +30,14 @@ void write_triangle_factors(uint patch_id) {
     gl_TessLevelInner[1] = gl_TessLevelInner[0];
 }
 
+// A patch whose outer levels are zero is not tessellated.
+void discard_patch() {
+    gl_TessLevelOuter[0] = 0.0;
+    gl_TessLevelOuter[1] = 0.0;
+    gl_TessLevelOuter[2] = 0.0;
+    gl_TessLevelOuter[3] = 0.0;
+    gl_TessLevelInner[0] = 0.0;
+    gl_TessLevelInner[1] = 0.0;
+}
+
 #endif

@@ -11,6 +11,8 @@ layout(push_constant) uniform PatchPush {
     uint first_patch;
     // First weight of the list's change of basis in Weights.
     uint weights;
+    // Sum of the negative weights of the control point with the largest one.
+    float overshoot;
 } list;
 
 #endif

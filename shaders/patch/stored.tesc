@@ -2,15 +2,18 @@
 #extension GL_GOOGLE_include_directive : require
 // Patches whose control points were computed before the draw: factors alone.
 #include "factors.glsl"
+#include "stored_hull.glsl"
 
 layout(vertices = 1) out;
-
-layout(location = 1) in flat uint net_patch[];
 
 layout(location = 1) patch out uint patch_id;
 
 void main() {
     uint id = net_patch[0];
     patch_id = id;
-    write_factors(id);
+    if (cull_patch()) {
+        discard_patch();
+    } else {
+        write_factors(id);
+    }
 }

@@ -1,7 +1,7 @@
 //! Where the surface is looked at from.
 
 use glam::dcamera::rh;
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DQuat, DVec3};
 use osculate_cage::Bounds;
 
 use crate::CageSpace;
@@ -80,6 +80,19 @@ impl Camera {
         Self { near, far: self.far.max(distance + 1.2 * radius), ..self }
     }
 
+    /// The views of a full turn about what is looked at, this one first: `count` of them, about the up axis, coming to half the distance in the middle
+    /// and back. Near and far planes are set around a box.
+    #[must_use]
+    pub fn orbit(&self, count: u32, bounds: Bounds) -> Vec<Self> {
+        let view = |i: u32| {
+            let turn = f64::from(i) / f64::from(count) * std::f64::consts::TAU;
+            let sight = DQuat::from_axis_angle(self.up.normalize(), turn) * (self.eye - self.at);
+            let nearness = 0.75 + 0.25 * turn.cos();
+            Self { eye: self.at + nearness * sight, ..*self }.reaching(bounds)
+        };
+        (0..count).map(view).collect()
+    }
+
     /// View space from cage space.
     pub(crate) fn view(&self, space: &CageSpace) -> DMat4 {
         // In cage space, where lengths are near one whatever the size of the cage.
@@ -113,6 +126,18 @@ mod tests {
         let around = camera.reaching(Bounds { min: DVec3::splat(-99.0), max: DVec3::splat(99.0) });
         assert!(around.near > 0.0 && around.near < camera.near && around.far > 99.0);
         assert_eq!(Camera { near: camera.near, far: camera.far, ..around }, camera);
+    }
+
+    #[test]
+    fn an_orbit_starts_here_and_comes_nearer_on_the_far_side() {
+        let camera = Camera::fit(bounds());
+        let views = camera.orbit(4, bounds());
+        assert_eq!(views.len(), 4);
+        assert!((views[0].eye - camera.eye).length() < 1e-9 && views.iter().all(|view| view.at == camera.at));
+        let (there, here) = (views[2].eye - camera.at, camera.eye - camera.at);
+        assert!((there.length() - 0.5 * here.length()).abs() < 1e-9);
+        assert!((there - DVec3::new(-0.5, 0.5, -0.5) * here).length() < 1e-9, "half a turn about the up axis");
+        assert!(views.iter().all(|view| view.near > 0.0 && view.near < view.far));
     }
 
     fn bounds() -> Bounds {

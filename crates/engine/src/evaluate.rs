@@ -198,6 +198,7 @@ impl Surface {
             view: None,
             shade: Shade::Lit,
             line_color: [0.0; 4],
+            culling: None,
         }
     }
 

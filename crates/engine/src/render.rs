@@ -4,7 +4,7 @@ use osculate_cage::{Bounds, Cage};
 use osculate_shaders::constant;
 
 use crate::canvas::Canvas;
-use crate::{Camera, Engine, EngineError, Surface, Tessellation};
+use crate::{Camera, Culling, Engine, EngineError, Surface, Tessellation};
 
 /// What the colours of a picture mean.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -99,6 +99,8 @@ pub struct RenderDesc {
     pub cage: bool,
     /// Samples per pixel.
     pub samples: u32,
+    /// Which patches the tessellator leaves out.
+    pub culling: Culling,
     /// Background, linear RGBA, alpha not multiplied in.
     pub background: [f32; 4],
 }
@@ -120,6 +122,7 @@ impl RenderDesc {
             shade: Shade::Lit,
             cage: false,
             samples: 4,
+            culling: Culling::NONE,
             background: BACKGROUND,
         }
     }

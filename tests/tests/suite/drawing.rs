@@ -19,9 +19,9 @@ fn by(evaluator: Evaluator, factors: Factors) -> Tessellation {
 
 /// A drawing that shows what a picture shows.
 fn drawing_of(surface: &Surface, desc: &RenderDesc) -> Drawing {
-    let &RenderDesc { tessellation, shade, cage, camera, size, samples, .. } = desc;
+    let &RenderDesc { tessellation, shade, cage, camera, size, samples, culling, .. } = desc;
     let target = Target::of(shade, samples);
-    Drawing::new(surface, &DrawingDesc { tessellation, shade, cage, target, camera, size }).unwrap()
+    Drawing::new(surface, &DrawingDesc { tessellation, shade, cage, target, camera, size, culling }).unwrap()
 }
 
 /// A recording of the frames of a drawing in which the cage may have moved.

@@ -1,6 +1,7 @@
 //! All cases that need more than one crate, in one program so that they link once and share a device.
 
 mod animation;
+mod culling;
 mod curvature;
 mod difference;
 mod drawing;

@@ -4,7 +4,7 @@ use crate::args::GlobalArgs;
 use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
 use crate::input::InputArgs;
-use crate::options::{CameraArgs, DrawEvaluator, Level, Pixels, SchemeChoice, SpacingArg, adaptive};
+use crate::options::{CameraArgs, DrawEvaluator, Level, Pixels, SchemeChoice, SpacingArg};
 use crate::progress::Progress;
 use crate::stdout;
 use clap::Args;
@@ -53,6 +53,11 @@ pub(crate) struct CheckArgs {
     #[arg(long, value_name = "PX", allow_negative_numbers = true)]
     adaptive: Option<Pixels>,
 
+    /// With --adaptive: prove the tessellations of so many views, on a full turn about the up axis of the camera that comes to half
+    /// its distance in the middle and back.
+    #[arg(long, value_name = "VIEWS", requires = "adaptive", value_parser = clap::value_parser!(u32).range(1..=10_000))]
+    orbit: Option<u32>,
+
     /// Who evaluates the surface.
     #[arg(long, value_name = "EVALUATOR", default_value = "auto")]
     evaluator: DrawEvaluator,
@@ -69,7 +74,8 @@ const EXAMPLES: &str = "\
 Examples:
   osculate check cube.obj
   osculate check cube.obj --levels 1,2.5,64 --spacing odd --json
-  osculate check cube.obj --adaptive 4 --camera 1,0,1:0,0,0:0,1,0:60";
+  osculate check cube.obj --adaptive 4 --camera 1,0,1:0,0,0:0,1,0:60
+  osculate check cube.obj --adaptive 4 --orbit 24 --spacing odd";
 
 /// Proofs that can be tried.
 pub(crate) struct Job {
@@ -85,7 +91,11 @@ pub(crate) struct Job {
 /// What decides the tessellation factors.
 enum Fineness {
     Levels(Vec<Level>),
-    Adaptive(Pixels),
+    Adaptive {
+        pixels: Pixels,
+        /// Number of views of a turn; none is the camera alone.
+        orbit: Option<u32>,
+    },
 }
 
 impl CheckArgs {
@@ -94,7 +104,10 @@ impl CheckArgs {
         Ok(Job {
             schemes: SchemeChoice::schemes(&self.schemes)?,
             input: self.input,
-            fineness: self.adaptive.map_or(Fineness::Levels(self.levels), Fineness::Adaptive),
+            fineness: match self.adaptive {
+                Some(pixels) => Fineness::Adaptive { pixels, orbit: self.orbit },
+                None => Fineness::Levels(self.levels),
+            },
             spacing: self.spacing,
             evaluator: self.evaluator,
             json: self.json,
@@ -129,20 +142,29 @@ struct Case {
     tessellation: Tessellation,
     key: &'static str,
     value: f32,
+    /// Which view of a turn.
+    view: Option<u32>,
 }
 
 impl Job {
     fn cases(&self, bounds: Bounds) -> Result<Vec<Case>, Failure> {
-        let case = |key, value, factors| {
+        let case = |key, value, view, factors| {
             let tessellation = Tessellation { factors, spacing: self.spacing.into(), evaluator: self.evaluator.into() };
-            Case { tessellation, key, value }
+            Case { tessellation, key, value, view }
         };
         Ok(match &self.fineness {
             Fineness::Levels(levels) => {
-                levels.iter().map(|level| case("level", level.get(), Factors::Uniform(level.get()))).collect()
+                levels.iter().map(|level| case("level", level.get(), None, Factors::Uniform(level.get()))).collect()
             }
-            Fineness::Adaptive(pixels) => {
-                vec![case("adaptive", pixels.get(), adaptive(*pixels, &self.camera, bounds)?)]
+            Fineness::Adaptive { pixels, orbit } => {
+                let camera = self.camera.camera(bounds)?;
+                let views = orbit.map_or_else(|| vec![camera], |count| camera.orbit(count, bounds));
+                let height = self.camera.size.height;
+                let case = |(view, camera)| {
+                    let factors = Factors::Adaptive { pixels: pixels.get(), camera, height };
+                    case("adaptive", pixels.get(), orbit.map(|_| view), factors)
+                };
+                (0..).zip(views).map(case).collect()
             }
         })
     }
@@ -160,9 +182,10 @@ impl Job {
         let split_positions = some(report.split_positions, "split_positions");
         let wrong_patches = some(report.wrong_patches, "wrong_patches");
         let (key, value, spacing) = (case.key, case.value, self.spacing.name());
+        let view = case.view.map_or_else(String::new, |view| format!(" view {view}"));
         let verdict = if report.is_watertight() { "watertight" } else { "NOT WATERTIGHT" };
         format!(
-            "{scheme} {key} {value} {spacing}: {triangles} triangles, {open} open, {over_shared} over_shared, \
+            "{scheme} {key} {value}{view} {spacing}: {triangles} triangles, {open} open, {over_shared} over_shared, \
              {split_positions}{split_normals} split_normals, {inverted} inverted, {wrong_patches}{degenerate} degenerate; \
              by position {} open, {} over_shared: {verdict}",
             weld.open, weld.over_shared
@@ -175,6 +198,7 @@ impl Job {
             scheme: scheme.name(),
             level: value_of("level"),
             adaptive: value_of("adaptive"),
+            view: case.view,
             spacing: self.spacing.name(),
             triangles: report.triangles,
             open: report.open,
@@ -198,6 +222,8 @@ struct Object {
     level: Option<f32>,
     #[serde(skip_serializing_if = "Option::is_none")]
     adaptive: Option<f32>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    view: Option<u32>,
     spacing: &'static str,
     triangles: u64,
     open: u64,

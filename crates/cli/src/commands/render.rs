@@ -7,7 +7,7 @@ use crate::input::InputArgs;
 use crate::options::{AnimationArgs, CameraArgs, Colour, NumberedPath, Output, SchemeName, TessellationArgs};
 use crate::progress::Progress;
 use clap::{Args, ValueEnum};
-use osculate::{RenderDesc, Scheme, Shade};
+use osculate::{Culling, RenderDesc, Scheme, Shade};
 use osculate_cage::Bounds;
 use std::path::PathBuf;
 
@@ -69,9 +69,34 @@ struct LookArgs {
     #[arg(long, value_name = "N", value_parser = samples, allow_negative_numbers = true)]
     samples: Option<u32>,
 
+    /// Patches that are left out before they are tessellated. The picture stays the same, but for the backs.
+    #[arg(long, value_name = "PATCHES", default_value = "none")]
+    cull: CullArg,
+
     /// Colour behind the surface: #RRGGBB, #RRGGBBAA, black, white or transparent. Default: dark grey.
     #[arg(long, value_name = "COLOUR")]
     background: Option<Colour>,
+}
+
+/// Names of what is left out.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum CullArg {
+    /// None.
+    None,
+    /// Those beyond the picture, and those that fall between its samples.
+    Unseen,
+    /// Those that show their backs too: for closed surfaces, seen from outside.
+    Backs,
+}
+
+impl From<CullArg> for Culling {
+    fn from(arg: CullArg) -> Self {
+        match arg {
+            CullArg::None => Self::NONE,
+            CullArg::Unseen => Self::UNSEEN,
+            CullArg::Backs => Self::ALL,
+        }
+    }
 }
 
 /// Names of the shades.
@@ -221,6 +246,7 @@ impl Job {
             shade,
             cage: self.look.cage,
             samples: self.look.samples.unwrap_or(if is_peer { 1 } else { default.samples }),
+            culling: self.look.cull.into(),
             background: self.look.background.map_or(default_background, encoded),
             ..default
         })

@@ -70,6 +70,21 @@ fn an_object_per_scheme_and_level() {
 }
 
 #[test]
+fn adaptive_factors_are_proved_along_a_turn() {
+    let folder = folder();
+    let arguments =
+        ["check", "cage.obj", "--schemes", "stam", "--adaptive", "6", "--spacing", "odd", "--json", "--orbit"];
+    let ran = osculate(folder.path(), &[&arguments[..], &["3"]].concat()).exits(0);
+    let reports: Vec<Value> = ran.stdout.lines().map(|line| serde_json::from_str(line).unwrap()).collect();
+    let views: Vec<&Value> = reports.iter().map(|report| &report["view"]).collect();
+    assert_eq!(views, [0, 1, 2]);
+    assert!(reports.iter().all(|report| report["open"] == 0 && report["watertight"] == true), "{}", ran.stdout);
+    assert_ne!(reports[0]["triangles"], reports[1]["triangles"], "the second view is nearer");
+    osculate(folder.path(), &[&arguments[..], &["0"]].concat()).fails(2, "--orbit");
+    osculate(folder.path(), &["check", "cage.obj", "--orbit", "3"]).fails(2, "--adaptive");
+}
+
+#[test]
 fn adaptive_factors_are_proved_at_the_camera() {
     let near = [
         "check",

@@ -8,8 +8,9 @@ use rspirv::dr::{Function, Instruction, Operand};
 use rspirv::spirv::{Decoration, GlslStd450Op, Op};
 use std::collections::HashSet;
 
-/// Functions whose results are colours. Tessellation factors are not exempt: the two patches of an edge compute them in different pipelines.
-const EXEMPT_PREFIX: &str = "shade_";
+/// Functions whose results are colours, and those that decide whether a patch can be seen at all, with room for roundings. Tessellation factors are not
+/// exempt: the two patches of an edge compute them in different pipelines.
+const EXEMPT_PREFIXES: [&str; 2] = ["shade_", "cull_"];
 
 /// Folder and extension of the stages that compute geometry.
 const GEOMETRY: [(&str, &str); 6] = [
@@ -98,7 +99,7 @@ fn contractible(spirv: &[u32]) -> Vec<String> {
     let mut faults = Vec::new();
     for function in &module.functions {
         let name = function_name(&module, function);
-        if name.starts_with(EXEMPT_PREFIX) {
+        if EXEMPT_PREFIXES.iter().any(|prefix| name.starts_with(prefix)) {
             continue;
         }
         for instruction in function.blocks.iter().flat_map(|block| &block.instructions) {

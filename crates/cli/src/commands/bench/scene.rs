@@ -12,7 +12,7 @@ use crate::progress::Progress;
 use glam::DVec3;
 use osculate::gpu::{Measure, PassStatistics, Prepared, Recording};
 use osculate::{
-    Camera, Drawing, DrawingDesc, Engine, EngineError, Evaluator, Shade, Surface, SurfaceDesc, Target, Targets,
+    Camera, Culling, Drawing, DrawingDesc, Engine, EngineError, Evaluator, Shade, Surface, SurfaceDesc, Target, Targets,
 };
 use osculate_cage::Cage;
 use std::time::Instant;
@@ -57,6 +57,7 @@ impl Scene {
             shade: Shade::Peer,
             cage: false,
             target: targets.target(),
+            culling: Culling::NONE,
             camera: Camera::fit(input.cage.bounds()),
             size: configuration.size,
         };

@@ -12,7 +12,9 @@ use crate::input::Input;
 use crate::postponement::Interruption;
 use crate::progress::Progress;
 use osculate::gpu::{Device, Measure, Prepared, Recording};
-use osculate::{Camera, Drawing, DrawingDesc, Engine, EngineError, Shade, Surface, SurfaceDesc, Target, Targets};
+use osculate::{
+    Camera, Culling, Drawing, DrawingDesc, Engine, EngineError, Shade, Surface, SurfaceDesc, Target, Targets,
+};
 use serde::Serialize;
 use std::fmt;
 use std::time::Instant;
@@ -85,6 +87,7 @@ pub(super) fn measure(
             shade: Shade::Peer,
             cage: false,
             target: targets.target(),
+            culling: Culling::NONE,
             camera: Camera::fit(input.cage.bounds()),
             size: configuration.size,
         };
