@@ -1,7 +1,9 @@
-// What changes from frame to frame: camera, tessellation and shading.
+// What changes from frame to frame: camera and tessellation. And the shade, which does not: devices without branches per pixel, llvmpipe among them, would
+// compute all shades and keep one.
 #ifndef FRAME_GLSL
 #define FRAME_GLSL
 #include "bindings.glsl"
+#include "constants.glsl"
 
 layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
     // Clip space from cage space (the cage's own frame: centred and scaled by a power of two).
@@ -18,8 +20,6 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
     float segments_per_length;
     // FACTORS_*
     uint factor_mode;
-    // SHADE_*
-    uint shade;
     // Half diagonal of the cage's box in cage space: the measure of curvatures and of what is mirrored.
     float radius;
     // Smallest distance from the eye that adaptive factors tell apart.
@@ -28,15 +28,10 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
     vec2 viewport;
     // Line colour of wireframe and cage overlay.
     vec4 line_color;
-    // The view that patches are culled for: clip space from cage space, eye in cage space (w unused), picture in pixels.
-    mat4 cull_clip_from_cage;
-    vec4 cull_eye;
-    vec2 cull_viewport;
-    // Places per pixel along an axis where a sample can lie.
-    float cull_samples;
-    // CULL_*
-    uint cull;
 } frame;
+
+// SHADE_*
+layout(constant_id = SPEC_SHADE) const uint SHADE = SHADE_NONE;
 
 // The one clip-space transform: positions equal bit for bit stay equal.
 vec4 clip_position(vec3 p) {

@@ -66,14 +66,14 @@ void write_vertex(uint number, vec2 uv) {
     SurfacePoint point;
     InnerPoint inner = InnerPoint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
     bool is_shared = shared_point(id, uv, point);
-    if (!is_shared || frame.shade == SHADE_WIREFRAME) {
+    if (!is_shared || SHADE == SHADE_WIREFRAME) {
         inner = inner_point(id, uv);
     }
     if (!is_shared) {
         point = SurfacePoint(inner.position, unit_or_zero(inner.plane));
     }
     vec2 segments = vec2(rate_segments(grid.inner_rate[0]), rate_segments(grid.inner_rate[1]));
-    vec2 measure = frame.shade == SHADE_NONE ? uv : shade_measure(id, uv, inner, segments);
+    vec2 measure = SHADE == SHADE_NONE ? uv : shade_measure(id, uv, inner, segments);
     uint at = GRID_VERTEX_WORDS * number;
     store_vector(at, point.position);
     store_vector(at + 3u, point.normal);

@@ -24,10 +24,10 @@ vec2 shade_off_corner(vec2 uv, vec2 segments) {
 
 // Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Others: what patches are outlined by.
 vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
-    if (frame.shade == SHADE_CURVATURE || frame.shade == SHADE_GAUSSIAN) {
+    if (SHADE == SHADE_CURVATURE || SHADE == SHADE_GAUSSIAN) {
         return shade_curvature(id, shade_off_corner(uv, segments));
     }
-    if (frame.shade == SHADE_WIREFRAME) {
+    if (SHADE == SHADE_WIREFRAME) {
         vec4 clip = clip_position(p.position);
         vec2 step = 1.0 / max(segments, vec2(1.0));
         return vec2(shade_triangle_width(shade_pixels(clip, p.du * step.x), shade_pixels(clip, p.dv * step.y)), 0.0);

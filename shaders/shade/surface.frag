@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Colours the surface by Frame.shade.
+// Colours the surface by SHADE.
 #include "frame.glsl"
 #include "records.glsl"
 #include "palette.glsl"
@@ -74,7 +74,7 @@ void main() {
     vec3 n = shade_normal(v);
     uint tag = patches[patch_id].tag;
     vec3 rgb;
-    switch (frame.shade) {
+    switch (SHADE) {
     case SHADE_NORMALS: rgb = shade_decode(0.5 + 0.5 * shade_unit(normal)); break;
     case SHADE_PATCHES: rgb = shade_outlined(shade_flat(shade_patch_color(tag), n, v), measure); break;
     case SHADE_VALENCE: rgb = shade_outlined(shade_flat(shade_valence_color(tag), n, v), measure); break;

@@ -1,6 +1,6 @@
 //! Pictures of surfaces of any size: the compute evaluator holds one chunk of vertices at a time.
 
-use osculate_gpu::{Buffer, BufferUsage, Draw, Memory, Recording};
+use osculate_gpu::{Buffer, BufferUsage, Draw, Recording};
 
 use crate::alpha::divide_alpha_out;
 use crate::evaluate::{GridChunk, Grids};
@@ -29,10 +29,9 @@ impl<'a> Canvas<'a> {
     }
 
     fn look(&self) -> Look<'_> {
-        let &RenderDesc { shade, cage, size, culling, .. } = self.desc;
+        let &RenderDesc { shade, cage, size, .. } = self.desc;
         let (tessellation, camera) = (&self.desc.tessellation, &self.desc.camera);
-        let target = self.targets.target();
-        Look { tessellation, shade, cage, camera, size, target, culling, culled_for: (camera, size) }
+        Look { tessellation, shade, cage, camera, size, target: self.targets.target() }
     }
 
     /// Makes all pipelines that surfaces will need.
@@ -63,7 +62,7 @@ impl<'a> Canvas<'a> {
     /// Evaluates and draws chunk after chunk, so that only one is in memory.
     fn add_grids(&mut self, surface: &Surface) -> Result<(), EngineError> {
         let rates = surface.grid_rates(&self.desc.tessellation)?;
-        let grids = Grids::new(surface, &rates, self.desc.shade.layout(), Memory::Device)?;
+        let grids = Grids::drawn(surface, &rates, self.desc.shade)?;
         let frame = self.frame(surface)?;
         for chunk in grids.chunks() {
             let chunk = chunk?;

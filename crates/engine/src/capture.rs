@@ -6,6 +6,7 @@ use osculate_shaders::binding;
 
 use crate::draw::{Output, runs};
 use crate::grid::Layout;
+use crate::pipelines::NO_KERNELS;
 use crate::{EngineError, Evaluator, Surface, Tessellation};
 
 /// A vertex of a captured triangle, as the evaluation stage wrote it (shaders/include/evaluation_stage.glsl).
@@ -86,7 +87,7 @@ impl Surface {
         let segments = tessellation.max_segments()?;
         let device = self.engine().device();
         self.require_capture()?;
-        self.engine().prepare([], self.pipelines(tessellation.spacing, Output::Capture))?;
+        self.engine().prepare(NO_KERNELS, self.pipelines(tessellation.spacing, Output::Capture))?;
         let frame = self.undrawn_frame(tessellation);
         let bindings = self.buffers().patches.clone().with(binding::FRAME, &frame.upload(device)?);
         let patches = u64::from(self.plan().patches.len() as u32);

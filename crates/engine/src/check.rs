@@ -8,7 +8,6 @@ mod shared;
 
 use std::collections::HashMap;
 
-use osculate_gpu::Memory;
 use osculate_subdiv::SurfacePlan;
 
 use crate::capture::hand_out;
@@ -117,7 +116,7 @@ impl<'a> Proof<'a> {
     fn add_grids(&mut self, surface: &Surface, tessellation: &Tessellation) -> Result<(), EngineError> {
         let rates = surface.grid_rates(tessellation)?;
         let frame = surface.undrawn_frame(tessellation).upload(surface.engine().device())?;
-        let grids = |layout| Grids::new(surface, &rates, layout, Memory::Readback);
+        let grids = |layout| Grids::read(surface, &rates, layout);
         let (own_grids, shared_grids) = (grids(Layout::Own)?, grids(Layout::Shared)?);
         for (own, shared) in own_grids.chunks().zip(shared_grids.chunks()) {
             let (own, shared) = (own?, shared?);

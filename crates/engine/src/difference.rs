@@ -1,7 +1,7 @@
 //! How far two schemes are apart on the same cage, as a heat map.
 
 use glam::Vec3;
-use osculate_gpu::{BufferUsage, Memory, Recording};
+use osculate_gpu::{BufferUsage, Recording};
 use osculate_shaders::constant::SAMPLE_FLOATS;
 use osculate_shaders::layout::SampleRequest;
 use rayon::prelude::*;
@@ -99,7 +99,7 @@ impl Comparison<'_> {
         mut visit: impl FnMut(&Grids<'_>, &GridChunk, &mut [CapturedVertex], &[f64]) -> Result<(), EngineError>,
     ) -> Result<(), EngineError> {
         let rates = self.surface.grid_rates(self.tessellation)?;
-        let grids = Grids::new(self.surface, &rates, Layout::Own, Memory::Readback)?;
+        let grids = Grids::read(self.surface, &rates, Layout::Own)?;
         let frame = self.surface.undrawn_frame(self.tessellation).upload(self.surface.engine().device())?;
         for chunk in grids.chunks() {
             let chunk = chunk?;

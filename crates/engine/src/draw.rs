@@ -8,21 +8,32 @@ use osculate_gpu::{
 use osculate_shaders::{constant, layout::PatchPush};
 use osculate_subdiv::{PatchForm, PatchKind, PatchList};
 
-use crate::culling::overshoot;
-use crate::{Engine, EngineError, Spacing, Surface, Target, Tessellation};
+use crate::{Engine, EngineError, Shade, Spacing, Surface, Target, Tessellation};
 
 /// What becomes of tessellated patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Output {
-    /// Filled triangles.
-    Fill(Target),
+    /// Filled triangles in a shade.
+    Fill(Target, Shade),
     /// The edges of the triangles.
     Lines(Target),
     /// Captured by transform feedback.
     Capture,
 }
 
-/// Everything that tells one graphics pipeline from another. Level, camera and shade are uniforms, lest pipelines multiply.
+impl Output {
+    /// The `SHADE_*` constant that shaders are specialized for.
+    fn shade(self) -> u32 {
+        match self {
+            Self::Fill(_, shade) => shade.constant(),
+            Self::Lines(_) => constant::SHADE_WIREFRAME,
+            Self::Capture => constant::SHADE_NONE,
+        }
+    }
+}
+
+/// Everything that tells one graphics pipeline from another. Level and camera are uniforms, lest pipelines multiply; the shade is none, because llvmpipe
+/// computes all branches for every pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum PipelineKey {
     /// Patches of a kind.
@@ -76,7 +87,7 @@ fn make_patches(
     let evaluation = engine.shader(&format!("{evaluation}#{}{capture}", spacing.variant()))?;
     let fragment = fragment(engine, output)?;
     let name = patches_name(kind, spacing, output);
-    let specialization = [(constant::SPEC_NET_SIZE, patch_points(kind))];
+    let specialization = [(constant::SPEC_NET_SIZE, patch_points(kind)), (constant::SPEC_SHADE, output.shade())];
     let desc = GraphicsPipelineDesc {
         tessellation: Some(Stages { control: &control, evaluation: &evaluation, patch_points: patch_points(kind) }),
         fragment: fragment.as_ref(),
@@ -101,7 +112,7 @@ fn patches_name(kind: PatchKind, spacing: Spacing, output: Output) -> String {
 fn output_name(output: Output) -> String {
     let target = |Target { color, samples }| format!("{color:?} x{samples}");
     match output {
-        Output::Fill(to) => format!("fill {}", target(to)),
+        Output::Fill(to, shade) => format!("fill {} {}", shade.name(), target(to)),
         Output::Lines(to) => format!("lines {}", target(to)),
         Output::Capture => "capture".to_owned(),
     }
@@ -109,7 +120,7 @@ fn output_name(output: Output) -> String {
 
 fn fragment(engine: &Engine, output: Output) -> Result<Option<Shader>, EngineError> {
     match output {
-        Output::Fill(_) => Ok(Some(engine.shader("shade/surface.frag")?)),
+        Output::Fill(..) => Ok(Some(engine.shader("shade/surface.frag")?)),
         Output::Lines(_) => Ok(Some(engine.shader("shade/wire.frag")?)),
         Output::Capture => Ok(None),
     }
@@ -122,6 +133,7 @@ fn make_grid(engine: &Engine, output: Output) -> Result<GraphicsPipeline, Engine
     let desc = GraphicsPipelineDesc {
         fragment: fragment.as_ref(),
         topology: Topology::Triangles,
+        specialization: &[(constant::SPEC_SHADE, output.shade())],
         ..GraphicsPipelineDesc::new(&name, &vertex)
     };
     Ok(engine.device().graphics_pipeline(&with_output(desc, output))?)
@@ -137,7 +149,7 @@ fn with_output<'a>(desc: GraphicsPipelineDesc<'a>, output: Output) -> GraphicsPi
         ..desc
     };
     match output {
-        Output::Fill(target) => drawn(target, PolygonMode::Fill, DepthState::default()),
+        Output::Fill(target, _) => drawn(target, PolygonMode::Fill, DepthState::default()),
         Output::Lines(target) => {
             // A line covers pixels whose centres lie up to half a pixel beside the edge, where the triangle may be that much nearer.
             let bias = Some(DepthBias { constant: -16.0, slope: -1.0 });
@@ -210,7 +222,6 @@ impl Surface {
             net_size: points,
             first_patch: list.first_patch,
             weights: list.weights,
-            overshoot: overshoot(list, &self.plan().weights),
         };
         let key = PipelineKey::Patches { kind: list.kind, spacing: tessellation.spacing, output };
         Ok(Draw {
@@ -235,8 +246,8 @@ mod tests {
         let target = Target { color: Format::Rgba8Srgb, samples: 4 };
         let stam = PatchKind::Extraordinary { form: PatchForm::Stam, valence: 7 };
         assert_eq!(
-            patches_name(stam, Spacing::Equal, Output::Fill(target)),
-            "stam valence 7, equal, fill Rgba8Srgb x4"
+            patches_name(stam, Spacing::Equal, Output::Fill(target, Shade::Zebra)),
+            "stam valence 7, equal, fill zebra Rgba8Srgb x4"
         );
         let stored = PatchKind::Stored { form: PatchForm::Gregory };
         assert_eq!(patches_name(stored, Spacing::Odd, Output::Capture), "gregory stored, odd, capture");

@@ -4,14 +4,15 @@ use std::ops::Range;
 
 use bytemuck::{NoUninit, bytes_of};
 use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, ComputePass, Draw, Memory, Recording, Vertices};
-use osculate_shaders::binding;
 use osculate_shaders::layout::{GridPatch, KernelPush};
+use osculate_shaders::{binding, constant};
 use osculate_subdiv::PatchForm;
 
 use crate::draw::{Output, PipelineKey};
 use crate::frame::FrameDesc;
 use crate::grid::{Chunk, GridPlan, GridPlanDesc, GridRates, Layout};
 use crate::kernels::{Kernel, fold};
+use crate::pipelines::KernelKey;
 use crate::{CapturedVertex, EngineError, Factors, Shade, Surface, Tessellation};
 
 /// Most bytes of vertices made at once, unless the device allows less.
@@ -28,11 +29,57 @@ fn kernel(form: PatchForm) -> &'static str {
     }
 }
 
+/// What vertices hold beside position and normal: few shades differ there, so that kernels do not multiply by shades.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Measured {
+    /// (u,v) as it is: of vertices that are not drawn.
+    Parameters,
+    /// What patches are outlined by.
+    Outline,
+    /// Mean and Gaussian curvature.
+    Curvature,
+    /// Width of the triangles in pixels.
+    Width,
+}
+
+impl Measured {
+    /// What pictures in a shade need; `None` is no picture.
+    fn of(shade: Option<Shade>) -> Self {
+        match shade {
+            None => Self::Parameters,
+            Some(Shade::Curvature | Shade::Gaussian) => Self::Curvature,
+            Some(Shade::Wireframe) => Self::Width,
+            Some(_) => Self::Outline,
+        }
+    }
+
+    /// A shade that measures this.
+    pub(crate) fn shade(self) -> u32 {
+        match self {
+            Self::Parameters => constant::SHADE_NONE,
+            Self::Outline => constant::SHADE_LIT,
+            Self::Curvature => constant::SHADE_CURVATURE,
+            Self::Width => constant::SHADE_WIREFRAME,
+        }
+    }
+
+    /// The name for tools.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Parameters => "parameters",
+            Self::Outline => "outline",
+            Self::Curvature => "curvature",
+            Self::Width => "width",
+        }
+    }
+}
+
 /// The grids of a surface.
 pub(crate) struct Grids<'a> {
     surface: &'a Surface,
     rates: &'a GridRates,
     layout: Layout,
+    measure: Measured,
     /// Where vertices go: the device, or where the host can read them.
     memory: Memory,
     bindings: Bindings,
@@ -74,16 +121,27 @@ impl GridChunk {
 }
 
 impl<'a> Grids<'a> {
-    pub(crate) fn new(
+    /// Those that are drawn in a shade: on the device.
+    pub(crate) fn drawn(surface: &'a Surface, rates: &'a GridRates, shade: Shade) -> Result<Self, EngineError> {
+        Self::new(surface, rates, Some(shade), shade.layout(), Memory::Device)
+    }
+
+    /// Those that the host reads.
+    pub(crate) fn read(surface: &'a Surface, rates: &'a GridRates, layout: Layout) -> Result<Self, EngineError> {
+        Self::new(surface, rates, None, layout, Memory::Readback)
+    }
+
+    fn new(
         surface: &'a Surface,
         rates: &'a GridRates,
+        shade: Option<Shade>,
         layout: Layout,
         memory: Memory,
     ) -> Result<Self, EngineError> {
-        surface.engine().prepare(surface.grid_kernels(), [])?;
+        surface.engine().prepare(surface.grid_kernels(shade), [])?;
         let parameters = upload(surface, "grid parameters", rates.parameters())?;
         let bindings = surface.buffers().patches.clone().with(binding::GRID_PARAMETERS, &parameters);
-        Ok(Self { surface, rates, layout, memory, bindings })
+        Ok(Self { surface, rates, layout, measure: Measured::of(shade), memory, bindings })
     }
 
     /// The chunks, made one at a time.
@@ -132,7 +190,7 @@ impl<'a> Grids<'a> {
             let name = kernel(list.kind.form());
             recording.compute(ComputePass {
                 name: name.to_owned(),
-                pipeline: self.surface.engine().kernel(name)?,
+                pipeline: self.surface.engine().kernel(KernelKey { shader: name, measure: self.measure })?,
                 bindings: chunk.bindings.clone().with(binding::FRAME, frame),
                 push: bytes_of(&push).to_vec(),
                 // One workgroup for each patch.
@@ -174,9 +232,10 @@ fn upload<T: NoUninit>(surface: &Surface, name: &str, data: &[T]) -> Result<Buff
 }
 
 impl Surface {
-    /// The kernels that its patches need.
-    pub(crate) fn grid_kernels(&self) -> impl Iterator<Item = &'static str> {
-        self.plan().lists.iter().map(|list| kernel(list.kind.form()))
+    /// The kernels that its patches need for pictures in a shade, or for none.
+    pub(crate) fn grid_kernels(&self, shade: Option<Shade>) -> impl Iterator<Item = KernelKey> {
+        let measure = Measured::of(shade);
+        self.plan().lists.iter().map(move |list| KernelKey { shader: kernel(list.kind.form()), measure })
     }
 
     /// How the edges are divided.
@@ -191,15 +250,7 @@ impl Surface {
 
     /// The frame of triangles that are not drawn: (u,v) is what the kernels measure.
     pub(crate) fn undrawn_frame<'a>(&'a self, tessellation: &'a Tessellation) -> FrameDesc<'a> {
-        FrameDesc {
-            radius: self.radius(),
-            space: self.space(),
-            tessellation,
-            view: None,
-            shade: Shade::Lit,
-            line_color: [0.0; 4],
-            culling: None,
-        }
+        FrameDesc { radius: self.radius(), space: self.space(), tessellation, view: None, line_color: [0.0; 4] }
     }
 
     /// The tessellation factor of each edge record.
@@ -230,7 +281,7 @@ impl Surface {
         mut sink: impl FnMut(&GridChunk, &[CapturedVertex]) -> Result<(), E>,
     ) -> Result<(), E> {
         let rates = self.grid_rates(tessellation)?;
-        let grids = Grids::new(self, &rates, layout, Memory::Readback)?;
+        let grids = Grids::read(self, &rates, layout)?;
         let frame = self.undrawn_frame(tessellation).upload(self.engine().device())?;
         for chunk in grids.chunks() {
             let chunk = chunk?;

@@ -4,9 +4,10 @@ use osculate_gpu::{Bindings, Buffer, Draw};
 use osculate_shaders::binding;
 
 use crate::draw::{Output, PipelineKey, runs};
-use crate::frame::{CullView, FrameDesc};
+use crate::frame::FrameDesc;
 use crate::grid::Layout;
-use crate::{Camera, Culling, Engine, EngineError, Shade, Surface, Target, Tessellation};
+use crate::pipelines::NO_KERNELS;
+use crate::{Camera, Engine, EngineError, Shade, Surface, Target, Tessellation};
 
 /// Edges of triangles.
 const WIRE: [f32; 4] = [0.012, 0.014, 0.020, 0.85];
@@ -26,10 +27,6 @@ pub(crate) struct Look<'a> {
     /// Width and height of the picture in pixels.
     pub(crate) size: [u32; 2],
     pub(crate) target: Target,
-    /// Which patches are left out.
-    pub(crate) culling: Culling,
-    /// The view that they are left out for.
-    pub(crate) culled_for: (&'a Camera, [u32; 2]),
 }
 
 impl Look<'_> {
@@ -52,18 +49,18 @@ impl Look<'_> {
         let cage = self.cage.then_some([false, true].map(|hidden| PipelineKey::Cage { target, hidden }));
         let cage = cage.into_iter().flatten();
         if tessellation.renders_in_compute() {
-            let kernels = surfaces.iter().flat_map(|surface| surface.grid_kernels());
+            let kernels = surfaces.iter().flat_map(|surface| surface.grid_kernels(Some(self.shade)));
             return engine.prepare(kernels, self.outputs().map(|output| PipelineKey::Grid { output }).chain(cage));
         }
         let patches = |output| surfaces.iter().flat_map(move |surface| surface.pipelines(tessellation.spacing, output));
-        engine.prepare([], self.outputs().flat_map(patches).chain(cage))
+        engine.prepare(NO_KERNELS, self.outputs().flat_map(patches).chain(cage))
     }
 
     /// What becomes of the triangles, in order.
     pub(crate) fn outputs(&self) -> impl Iterator<Item = Output> + use<> {
         let target = self.target;
         let lines = (self.shade == Shade::Wireframe).then_some(Output::Lines(target));
-        std::iter::once(Output::Fill(target)).chain(lines)
+        std::iter::once(Output::Fill(target, self.shade)).chain(lines)
     }
 
     /// The frame of a surface.
@@ -73,17 +70,8 @@ impl Look<'_> {
             radius: surface.radius(),
             tessellation: self.tessellation,
             view: Some((self.camera, self.size)),
-            shade: self.shade,
             line_color: WIRE,
-            culling: self.cull_view(),
         }
-    }
-
-    fn cull_view(&self) -> Option<CullView<'_>> {
-        // Lines cover pixels beside the triangles that they bound.
-        let culling = Culling { small: self.culling.small && self.shade != Shade::Wireframe, ..self.culling };
-        let (camera, size) = self.culled_for;
-        (culling != Culling::NONE).then_some(CullView { culling, camera, size, samples: self.target.samples })
     }
 
     /// The frames of its cage, if that is asked for: of edges behind the surface too, then of those in sight.

@@ -9,9 +9,11 @@ use std::sync::{Arc, Mutex, PoisonError};
 use std::time::Instant;
 
 use osculate_gpu::{ComputePipeline, ComputePipelineDesc, Device, GraphicsPipeline, Shader};
+use osculate_shaders::constant;
 use rayon::prelude::*;
 
 use crate::draw::PipelineKey;
+use crate::evaluate::Measured;
 use crate::memo::Memo;
 use crate::{Engine, EngineError};
 
@@ -46,7 +48,7 @@ impl fmt::Debug for PipelineObserver {
 #[derive(Default)]
 pub(crate) struct Pipelines {
     modules: Memo<String, Shader>,
-    kernels: Memo<&'static str, ComputePipeline>,
+    kernels: Memo<KernelKey, ComputePipeline>,
     drawing: Memo<PipelineKey, GraphicsPipeline>,
     file: Option<PathBuf>,
     /// Pipelines were made since the file was read or written.
@@ -76,10 +78,39 @@ impl Pipelines {
     }
 }
 
+/// A compute kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct KernelKey {
+    /// Name of the shader.
+    pub(crate) shader: &'static str,
+    /// What the vertices that it makes, if it does, hold beside position and normal.
+    pub(crate) measure: Measured,
+}
+
+/// No kernels at all, for [`Engine::prepare`].
+pub(crate) const NO_KERNELS: [KernelKey; 0] = [];
+
+impl From<&'static str> for KernelKey {
+    /// A kernel that knows of no shades.
+    fn from(shader: &'static str) -> Self {
+        Self { shader, measure: Measured::Parameters }
+    }
+}
+
+impl KernelKey {
+    /// What tools call it.
+    fn name(self) -> String {
+        match self.measure {
+            Measured::Parameters => self.shader.to_owned(),
+            measure => format!("{}, {}", self.shader, measure.name()),
+        }
+    }
+}
+
 /// Something that takes a driver long to make.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Need {
-    Kernel(&'static str),
+    Kernel(KernelKey),
     Drawing(PipelineKey),
 }
 
@@ -90,11 +121,11 @@ impl Engine {
     /// was left out one by one.
     pub(crate) fn prepare(
         &self,
-        kernels: impl IntoIterator<Item = &'static str>,
+        kernels: impl IntoIterator<Item = impl Into<KernelKey>>,
         drawing: impl IntoIterator<Item = PipelineKey>,
     ) -> Result<(), EngineError> {
         let made = self.pipelines();
-        let kernels = kernels.into_iter().filter(|name| !made.kernels.has(name)).map(Need::Kernel);
+        let kernels = kernels.into_iter().map(Into::into).filter(|key| !made.kernels.has(key)).map(Need::Kernel);
         let drawing = drawing.into_iter().filter(|key| !made.drawing.has(key)).map(Need::Drawing);
         let mut seen = HashSet::new();
         let missing: Vec<Need> = kernels.chain(drawing).filter(|need| seen.insert(*need)).collect();
@@ -119,7 +150,7 @@ impl Engine {
 
     fn make(&self, need: Need) -> Result<(), EngineError> {
         match need {
-            Need::Kernel(name) => self.kernel(name).map(drop),
+            Need::Kernel(key) => self.kernel(key).map(drop),
             Need::Drawing(key) => self.pipeline(key).map(drop),
         }
     }
@@ -133,11 +164,13 @@ impl Engine {
         })
     }
 
-    /// The compute pipeline of that shader.
-    pub(crate) fn kernel(&self, name: &'static str) -> Result<ComputePipeline, EngineError> {
-        self.pipelines().kernels.get_or_make(name, || {
-            let shader = self.shader(name)?;
-            let desc = ComputePipelineDesc { name, shader: &shader, specialization: &[] };
+    /// The compute pipeline of that kernel.
+    pub(crate) fn kernel(&self, key: impl Into<KernelKey>) -> Result<ComputePipeline, EngineError> {
+        let key = key.into();
+        self.pipelines().kernels.get_or_make(key, || {
+            let shader = self.shader(key.shader)?;
+            let specialization = &[(constant::SPEC_SHADE, key.measure.shade())];
+            let desc = ComputePipelineDesc { name: &key.name(), shader: &shader, specialization };
             self.timed(|| Ok(self.device().compute_pipeline(&desc)?), ComputePipeline::name)
         })
     }
@@ -267,7 +300,7 @@ mod tests {
             let kind = if list.kind.is_stored() { "stored" } else { "valence 3" };
             let patches = |output| format!("{} {kind}, equal, {output}", list.kind.form().name());
             let cage = ["cage overlay".to_owned(), "cage overlay, hidden too".to_owned()];
-            let mut expected = [&cage[..], &[patches("capture"), patches("fill Rgba8Srgb x4")]].concat();
+            let mut expected = [&cage[..], &[patches("capture"), patches("fill lit Rgba8Srgb x4")]].concat();
             expected.sort_unstable();
             assert_eq!(drawing, expected, "{scheme}");
             assert_eq!(engine.device().validation_messages(), [""; 0]);
