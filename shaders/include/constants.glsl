@@ -44,6 +44,12 @@
 #define FACTORS_UNIFORM 0
 #define FACTORS_ADAPTIVE 1
 
+// Frame.cull: which patches are left out before they are tessellated. Those beyond a plane of the view, those that fall between samples, regular ones that
+// show their backs.
+#define CULL_FRUSTUM 1
+#define CULL_SMALL 2
+#define CULL_BACK 4
+
 // Values of SHADE: what the colours of a picture mean; SHADE_NONE where nothing is drawn and vertices keep their (u,v).
 #define SHADE_NONE 255
 #define SHADE_LIT 0

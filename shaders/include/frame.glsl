@@ -28,6 +28,14 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
     vec2 viewport;
     // Line colour of wireframe and cage overlay.
     vec4 line_color;
+    // The view that patches are culled for: clip space from cage space, eye in cage space (w unused), picture in pixels.
+    mat4 cull_clip_from_cage;
+    vec4 cull_eye;
+    vec2 cull_viewport;
+    // Places per pixel along an axis where a sample can lie.
+    float cull_samples;
+    // CULL_*
+    uint cull;
 } frame;
 
 // SHADE_*

@@ -29,9 +29,10 @@ impl<'a> Canvas<'a> {
     }
 
     fn look(&self) -> Look<'_> {
-        let &RenderDesc { shade, cage, size, .. } = self.desc;
+        let &RenderDesc { shade, cage, size, culling, .. } = self.desc;
         let (tessellation, camera) = (&self.desc.tessellation, &self.desc.camera);
-        Look { tessellation, shade, cage, camera, size, target: self.targets.target() }
+        let target = self.targets.target();
+        Look { tessellation, shade, cage, camera, size, target, culling, culled_for: (camera, size) }
     }
 
     /// Makes all pipelines that surfaces will need.

@@ -8,6 +8,7 @@ use osculate_gpu::{
 use osculate_shaders::{constant, layout::PatchPush};
 use osculate_subdiv::{PatchForm, PatchKind, PatchList};
 
+use crate::culling::overshoot;
 use crate::{Engine, EngineError, Shade, Spacing, Surface, Target, Tessellation};
 
 /// What becomes of tessellated patches.
@@ -222,6 +223,7 @@ impl Surface {
             net_size: points,
             first_patch: list.first_patch,
             weights: list.weights,
+            overshoot: overshoot(list, &self.plan().weights),
         };
         let key = PipelineKey::Patches { kind: list.kind, spacing: tessellation.spacing, output };
         Ok(Draw {

@@ -5,7 +5,7 @@ use osculate_gpu::{Buffer, BufferUsage, Draw, Recording};
 use crate::evaluate::{GridChunk, Grids};
 use crate::grid::GridRates;
 use crate::look::Look;
-use crate::{Camera, EngineError, Factors, Shade, Surface, Target, Tessellation};
+use crate::{Camera, Culling, EngineError, Factors, Shade, Surface, Target, Tessellation};
 
 /// How a surface is drawn frame after frame.
 #[derive(Clone, Copy, Debug)]
@@ -18,6 +18,8 @@ pub struct DrawingDesc {
     pub cage: bool,
     /// What it is drawn to.
     pub target: Target,
+    /// Which patches the tessellator leaves out.
+    pub culling: Culling,
     /// Where the first frame is seen from.
     pub camera: Camera,
     /// Width and height of the first frame in pixels.
@@ -72,7 +74,9 @@ pub struct Drawing {
     /// What the compute evaluator draws.
     grids: Option<ResidentGrids>,
     draws: Vec<Draw>,
-    /// Adaptive factors stay as they are.
+    /// The view that patches are left out for.
+    culled_for: (Camera, [u32; 2]),
+    /// Adaptive factors and what is left out stay as they are.
     frozen: bool,
 }
 
@@ -94,14 +98,16 @@ impl DrawingDesc {
             shade: Shade::Lit,
             cage: false,
             target: Target::of(Shade::Lit, 1),
+            culling: Culling::NONE,
             camera: Camera::fit(cage.bounds()),
             size,
         }
     }
 
-    fn look(&self) -> Look<'_> {
-        let &Self { shade, cage, size, target, .. } = self;
-        Look { tessellation: &self.tessellation, shade, cage, camera: &self.camera, size, target }
+    fn look<'a>(&'a self, culled_for: (&'a Camera, [u32; 2])) -> Look<'a> {
+        let &Self { shade, cage, size, target, culling, .. } = self;
+        let (tessellation, camera) = (&self.tessellation, &self.camera);
+        Look { tessellation, shade, cage, camera, size, target, culling, culled_for }
     }
 }
 
@@ -114,7 +120,7 @@ impl Drawing {
         if desc.shade == Shade::Difference {
             return Err(EngineError::OneSurface);
         }
-        let (engine, look) = (surface.engine(), desc.look());
+        let (engine, look) = (surface.engine(), desc.look((&desc.camera, desc.size)));
         look.check(engine)?;
         look.prepare(engine, &[surface])?;
         let upload = |frame: crate::frame::FrameDesc<'_>| frame.upload(engine.device());
@@ -125,6 +131,7 @@ impl Drawing {
             desc: *desc,
             grids: None,
             draws: Vec::new(),
+            culled_for: (desc.camera, desc.size),
             frozen: false,
         };
         let _first = drawing.replan()?;
@@ -139,10 +146,11 @@ impl Drawing {
     /// If the device fails.
     pub fn set_view(&mut self, camera: &Camera, size: [u32; 2]) -> Result<DrawPlan, EngineError> {
         (self.desc.camera, self.desc.size) = (*camera, size);
-        if let Factors::Adaptive { camera: from, height, .. } = &mut self.desc.tessellation.factors
-            && !self.frozen
-        {
-            (*from, *height) = (*camera, size[1]);
+        if !self.frozen {
+            self.culled_for = (*camera, size);
+            if let Factors::Adaptive { camera: from, height, .. } = &mut self.desc.tessellation.factors {
+                (*from, *height) = (*camera, size[1]);
+            }
         }
         self.write_frames()?;
         match &self.grids {
@@ -151,13 +159,17 @@ impl Drawing {
         }
     }
 
-    /// Chooses whether adaptive factors stay as they are, so that one can see from elsewhere what they make.
+    /// Chooses whether adaptive factors, and the patches that are left out, stay as they are, so that one can see from elsewhere what becomes of them.
     pub fn freeze_factors(&mut self, frozen: bool) {
         self.frozen = frozen;
     }
 
+    fn look(&self) -> Look<'_> {
+        self.desc.look((&self.culled_for.0, self.culled_for.1))
+    }
+
     fn write_frames(&self) -> Result<(), EngineError> {
-        let look = self.desc.look();
+        let look = self.look();
         self.frame.write(0, &[look.frame(&self.surface).block()])?;
         for (buffer, frame) in self.cage_frames.iter().zip(look.cage_frames(&self.surface)) {
             buffer.write(0, &[frame.block()])?;
@@ -167,7 +179,8 @@ impl Drawing {
 
     /// Makes the draws, unless those that are there are good.
     fn replan(&mut self) -> Result<DrawPlan, EngineError> {
-        let look = self.desc.look();
+        let (desc, (camera, size)) = (self.desc, self.culled_for);
+        let look = desc.look((&camera, size));
         let mut draws = Vec::new();
         if self.desc.tessellation.renders_in_compute() {
             let rates = self.surface.grid_rates(&self.desc.tessellation)?;

@@ -250,7 +250,14 @@ impl Surface {
 
     /// The frame of triangles that are not drawn: (u,v) is what the kernels measure.
     pub(crate) fn undrawn_frame<'a>(&'a self, tessellation: &'a Tessellation) -> FrameDesc<'a> {
-        FrameDesc { radius: self.radius(), space: self.space(), tessellation, view: None, line_color: [0.0; 4] }
+        FrameDesc {
+            radius: self.radius(),
+            space: self.space(),
+            tessellation,
+            view: None,
+            line_color: [0.0; 4],
+            culling: None,
+        }
     }
 
     /// The tessellation factor of each edge record.

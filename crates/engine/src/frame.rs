@@ -5,7 +5,8 @@ use osculate_gpu::{Buffer, BufferDesc, BufferUsage, Device, Memory};
 use osculate_shaders::constant;
 use osculate_shaders::layout::Frame;
 
-use crate::{CageSpace, Camera, EngineError, Factors, Tessellation};
+use crate::culling::sample_places;
+use crate::{CageSpace, Camera, Culling, EngineError, Factors, Tessellation};
 
 /// What a frame shows, before it becomes a uniform block.
 pub(crate) struct FrameDesc<'a> {
@@ -16,6 +17,19 @@ pub(crate) struct FrameDesc<'a> {
     /// Camera and size of the picture in pixels; none when nothing is drawn.
     pub(crate) view: Option<(&'a Camera, [u32; 2])>,
     pub(crate) line_color: [f32; 4],
+    /// Which patches are left out, and the view that they are left out for.
+    pub(crate) culling: Option<CullView<'a>>,
+}
+
+/// A view that patches are left out for.
+#[derive(Clone, Copy)]
+pub(crate) struct CullView<'a> {
+    pub(crate) culling: Culling,
+    pub(crate) camera: &'a Camera,
+    /// Width and height of its picture in pixels.
+    pub(crate) size: [u32; 2],
+    /// Samples per pixel.
+    pub(crate) samples: u32,
 }
 
 fn columns(m: DMat4) -> [[f32; 4]; 4] {
@@ -26,10 +40,7 @@ impl FrameDesc<'_> {
     /// The block as the shaders see it.
     pub(crate) fn block(&self) -> Frame {
         let (clip, view) = match self.view {
-            Some((camera, [width, height])) => {
-                let aspect = f64::from(width) / f64::from(height);
-                (camera.clip(self.space, aspect), camera.view(self.space))
-            }
+            Some((camera, size)) => (self.clip(camera, size), camera.view(self.space)),
             None => (DMat4::IDENTITY, DMat4::IDENTITY),
         };
         let mut frame = Frame {
@@ -45,7 +56,19 @@ impl FrameDesc<'_> {
             padding: 0,
             viewport: self.view.map_or([1.0; 2], |(_, size)| size.map(|pixels| pixels as f32)),
             line_color: self.line_color,
+            cull_clip_from_cage: columns(DMat4::IDENTITY),
+            cull_eye: [0.0; 4],
+            cull_viewport: [1.0; 2],
+            cull_samples: 1.0,
+            cull: 0,
         };
+        if let Some(CullView { culling, camera, size, samples }) = self.culling {
+            frame.cull_clip_from_cage = columns(self.clip(camera, size));
+            frame.cull_eye = self.eye(camera);
+            frame.cull_viewport = size.map(|pixels| pixels as f32);
+            frame.cull_samples = sample_places(samples);
+            frame.cull = culling.bits();
+        }
         match &self.tessellation.factors {
             Factors::Uniform(level) => frame.level = *level,
             Factors::Adaptive { pixels, camera, height } => {
@@ -56,6 +79,10 @@ impl FrameDesc<'_> {
             }
         }
         frame
+    }
+
+    fn clip(&self, camera: &Camera, [width, height]: [u32; 2]) -> DMat4 {
+        camera.clip(self.space, f64::from(width) / f64::from(height))
     }
 
     fn eye(&self, camera: &Camera) -> [f32; 4] {

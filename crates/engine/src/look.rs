@@ -4,10 +4,10 @@ use osculate_gpu::{Bindings, Buffer, Draw};
 use osculate_shaders::binding;
 
 use crate::draw::{Output, PipelineKey, runs};
-use crate::frame::FrameDesc;
+use crate::frame::{CullView, FrameDesc};
 use crate::grid::Layout;
 use crate::pipelines::NO_KERNELS;
-use crate::{Camera, Engine, EngineError, Shade, Surface, Target, Tessellation};
+use crate::{Camera, Culling, Engine, EngineError, Shade, Surface, Target, Tessellation};
 
 /// Edges of triangles.
 const WIRE: [f32; 4] = [0.012, 0.014, 0.020, 0.85];
@@ -27,6 +27,10 @@ pub(crate) struct Look<'a> {
     /// Width and height of the picture in pixels.
     pub(crate) size: [u32; 2],
     pub(crate) target: Target,
+    /// Which patches are left out.
+    pub(crate) culling: Culling,
+    /// The view that they are left out for.
+    pub(crate) culled_for: (&'a Camera, [u32; 2]),
 }
 
 impl Look<'_> {
@@ -71,7 +75,15 @@ impl Look<'_> {
             tessellation: self.tessellation,
             view: Some((self.camera, self.size)),
             line_color: WIRE,
+            culling: self.cull_view(),
         }
+    }
+
+    fn cull_view(&self) -> Option<CullView<'_>> {
+        // Lines cover pixels beside the triangles that they bound.
+        let culling = Culling { small: self.culling.small && self.shade != Shade::Wireframe, ..self.culling };
+        let (camera, size) = self.culled_for;
+        (culling != Culling::NONE).then_some(CullView { culling, camera, size, samples: self.target.samples })
     }
 
     /// The frames of its cage, if that is asked for: of edges behind the surface too, then of those in sight.

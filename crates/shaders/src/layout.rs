@@ -90,6 +90,16 @@ shared_structs! {
         pub viewport: [f32; 2],
         /// Line colour of wireframe and cage overlay, linear RGBA.
         pub line_color: [f32; 4],
+        /// The view that patches are culled for: clip space from cage space, by columns.
+        pub cull_clip_from_cage: [[f32; 4]; 4],
+        /// Its eye in cage space; w unused.
+        pub cull_eye: [f32; 4],
+        /// Width and height of its picture in pixels.
+        pub cull_viewport: [f32; 2],
+        /// Places per pixel along an axis where a sample can lie.
+        pub cull_samples: f32,
+        /// Which patches are left out: `CULL_*` bits.
+        pub cull: u32,
     }
 
     /// The part of a patch list that one draw renders (`shaders/include/patch_push.glsl`).
@@ -102,6 +112,8 @@ shared_structs! {
         pub first_patch: u32,
         /// First weight of the list's change of basis.
         pub weights: u32,
+        /// Sum of the negative weights of the control point with the largest one, for hulls of control points.
+        pub overshoot: f32,
     }
 
     /// What a kernel over elements of one kind needs (`shaders/include/kernel_push.glsl`).
