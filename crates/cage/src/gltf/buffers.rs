@@ -75,6 +75,11 @@ impl Loader<'_> {
         if let Some(data) = self.files.get(&file) {
             return Ok(data.clone());
         }
+        // A pipe would be waited for, and a device never ends.
+        if file.metadata().is_ok_and(|metadata| !metadata.is_file()) {
+            let error = std::io::Error::other("not a regular file");
+            return Err(GltfError::BufferFile { buffer, file, error });
+        }
         match self.desc.limits.read_file(&file, self.desc.observer.as_ref()) {
             Ok(data) => Ok(self.files.entry(file).or_insert(data.into()).clone()),
             Err(ReadError::Limit { error, .. }) => Err(error.into()),

@@ -403,6 +403,13 @@ fn buffers_that_cannot_be_had() {
     let missing = refused("missing.bin", Some(folder.path()));
     assert!(missing.starts_with("test.gltf: buffer 0: ") && missing.contains("missing.bin: No such file"), "{missing}");
 
+    #[cfg(unix)]
+    {
+        std::os::unix::fs::symlink("/dev/zero", folder.path().join("endless.bin")).expect("linked");
+        let endless = refused("endless.bin", Some(folder.path()));
+        assert!(endless.ends_with("endless.bin: not a regular file"), "{endless}");
+    }
+
     let mut json = file.json.clone();
     json["buffers"][0] = json!({"byteLength": 56});
     let error = read_gltf(json.to_string().as_bytes(), "test.gltf", None).expect_err("no binary part");
