@@ -25,7 +25,8 @@ const INCLUDE_DIRS: &[&str] = &["", "include"];
 type Defines = &'static [(&'static str, Option<&'static str>)];
 
 /// Variants of a stage: what is added to the file's path to name the shader, and the macros that make it. `SPACING` is the
-/// tessellator's spacing, which is a layout qualifier and so no specialization constant; `CAPTURE` sends outputs to transform feedback.
+/// tessellator's spacing, which is a layout qualifier and so no specialization constant; `CAPTURE` sends outputs to transform feedback; `MAPPED` is for
+/// surfaces with texture coordinates, which may be displaced.
 const EVALUATION_VARIANTS: &[(&str, Defines)] = &[
     ("#equal", &[("SPACING", Some("equal_spacing"))]),
     ("#odd", &[("SPACING", Some("fractional_odd_spacing"))]),
@@ -33,7 +34,15 @@ const EVALUATION_VARIANTS: &[(&str, Defines)] = &[
     ("#equal,capture", &[("SPACING", Some("equal_spacing")), ("CAPTURE", None)]),
     ("#odd,capture", &[("SPACING", Some("fractional_odd_spacing")), ("CAPTURE", None)]),
     ("#even,capture", &[("SPACING", Some("fractional_even_spacing")), ("CAPTURE", None)]),
+    ("#equal,mapped", &[("SPACING", Some("equal_spacing")), ("MAPPED", None)]),
+    ("#odd,mapped", &[("SPACING", Some("fractional_odd_spacing")), ("MAPPED", None)]),
+    ("#even,mapped", &[("SPACING", Some("fractional_even_spacing")), ("MAPPED", None)]),
+    ("#equal,capture,mapped", &[("SPACING", Some("equal_spacing")), ("CAPTURE", None), ("MAPPED", None)]),
+    ("#odd,capture,mapped", &[("SPACING", Some("fractional_odd_spacing")), ("CAPTURE", None), ("MAPPED", None)]),
+    ("#even,capture,mapped", &[("SPACING", Some("fractional_even_spacing")), ("CAPTURE", None), ("MAPPED", None)]),
 ];
+/// Stages that evaluate or colour patches: with `MAPPED` for surfaces with texture coordinates.
+const MAPPED_VARIANTS: &[(&str, Defines)] = &[("", &[]), ("#mapped", &[("MAPPED", None)])];
 const ONE_VARIANT: &[(&str, Defines)] = &[("", &[])];
 
 /// Control stages that write as many vertices as the net has points, which SPIR-V wants as a literal: one variant for each net of 2n+8 points.
@@ -49,6 +58,12 @@ const NET_SIZE_VARIANTS: &[(&str, Defines)] = &[
     ("#30", &[("POINTS_OUT", Some("30"))]),
     ("#32", &[("POINTS_OUT", Some("32"))]),
 ];
+
+/// The stage that colours patches, and the folder of the kernels that evaluate them.
+const SURFACE_STAGE: &str = "shade/surface.frag";
+const EVALUATION_FOLDER: &str = "evaluate/";
+/// One of them that evaluates none.
+const FACTORS_STAGE: &str = "evaluate/factors.comp";
 
 /// One shader to compile: a variant of a stage file.
 struct Job {
@@ -94,6 +109,8 @@ fn jobs_of(path: &str) -> Vec<Job> {
     let variants = match Stage::of_path(path) {
         Ok(Stage::TessellationEvaluation) => EVALUATION_VARIANTS,
         Ok(_) if path == NET_SIZE_STAGE => NET_SIZE_VARIANTS,
+        Ok(Stage::Fragment) if path == SURFACE_STAGE => MAPPED_VARIANTS,
+        Ok(Stage::Compute) if path.starts_with(EVALUATION_FOLDER) && path != FACTORS_STAGE => MAPPED_VARIANTS,
         Ok(_) => ONE_VARIANT,
         Err(_) => &[],
     };

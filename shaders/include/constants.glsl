@@ -63,6 +63,14 @@
 #define SHADE_REFLECTION 8
 #define SHADE_GAUSSIAN 9
 #define SHADE_DIFFERENCE 10
+#define SHADE_TEXTURED 12
+#define SHADE_UV 13
+
+// Mapping.height_wrap: what lies beyond the map, WRAP_BITS for each axis.
+#define WRAP_CLAMP 0
+#define WRAP_REPEAT 1
+#define WRAP_MIRROR 2
+#define WRAP_BITS 2
 
 // Specialization constants.
 #define SPEC_NET_SIZE 0

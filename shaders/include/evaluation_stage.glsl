@@ -1,9 +1,12 @@
-// Interface of the tessellation evaluation stages: a stage includes this, its form, and says where control points come from. SPACING is the layout's spacing, DOMAIN its domain if not quads; with CAPTURE the outputs go to transform feedback.
+// Interface of the tessellation evaluation stages: a stage includes this, its form, and says where control points come from. SPACING is the layout's spacing, DOMAIN its domain if not quads; with CAPTURE the outputs go to transform feedback, with MAPPED the surface has texture coordinates.
 #ifndef EVALUATION_STAGE_GLSL
 #define EVALUATION_STAGE_GLSL
 #include "frame.glsl"
 #include "forms/form.glsl"
 #include "measure.glsl"
+#ifdef MAPPED
+#include "displacement.glsl"
+#endif
 
 #ifndef DOMAIN
 #define DOMAIN quads
@@ -31,6 +34,9 @@ void write_vertex() {
     vec2 uv = gl_TessCoord.xy;
     InnerPoint inner = inner_point(patch_id, uv);
     SurfacePoint point = surface_point(patch_id, uv, inner);
+#ifdef MAPPED
+    point = displaced_point(patch_id, uv, inner, point);
+#endif
     gl_Position = clip_position(point.position);
     out_position = point.position;
     out_normal = point.normal;

@@ -10,6 +10,9 @@
 #include "bases/net.glsl"
 #include "forms/form.glsl"
 #include "measure.glsl"
+#ifdef MAPPED
+#include "displacement.glsl"
+#endif
 
 layout(local_size_x = GRID_GROUP_SIZE) in;
 
@@ -72,6 +75,9 @@ void write_vertex(uint number, vec2 uv) {
     if (!is_shared) {
         point = SurfacePoint(inner.position, unit_or_zero(inner.plane));
     }
+#ifdef MAPPED
+    point = displaced_point(id, uv, inner, point);
+#endif
     vec2 segments = vec2(rate_segments(grid.inner_rate[0]), rate_segments(grid.inner_rate[1]));
     vec2 measure = SHADE == SHADE_NONE ? uv : shade_measure(id, uv, inner, segments);
     uint at = GRID_VERTEX_WORDS * number;

@@ -3,6 +3,9 @@
 #define MEASURE_GLSL
 #include "frame.glsl"
 #include "forms/form.glsl"
+#ifdef MAPPED
+#include "attributes.glsl"
+#endif
 
 // A step along `direction` from the point at `clip`, in pixels of the picture.
 vec2 shade_pixels(vec4 clip, vec3 direction) {
@@ -22,7 +25,7 @@ vec2 shade_off_corner(vec2 uv, vec2 segments) {
     return corner_of(uv) != 4u ? clamp(uv, inside, 1.0 - inside) : uv;
 }
 
-// Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Others: what patches are outlined by.
+// Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Textured: texture coordinates. Others: what patches are outlined by.
 vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
     if (SHADE == SHADE_CURVATURE || SHADE == SHADE_GAUSSIAN) {
         return shade_curvature(id, shade_off_corner(uv, segments));
@@ -32,6 +35,11 @@ vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
         vec2 step = 1.0 / max(segments, vec2(1.0));
         return vec2(shade_triangle_width(shade_pixels(clip, p.du * step.x), shade_pixels(clip, p.dv * step.y)), 0.0);
     }
+#ifdef MAPPED
+    if (SHADE == SHADE_TEXTURED || SHADE == SHADE_UV) {
+        return patch_uv_at(id, uv);
+    }
+#endif
     return shade_outline(uv);
 }
 

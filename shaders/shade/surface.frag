@@ -6,10 +6,13 @@
 #include "palette.glsl"
 #include "lighting.glsl"
 #include "mirror.glsl"
+#ifdef MAPPED
+#include "texture.glsl"
+#endif
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-// By shade: curvature, or (u,v) in the patch (shade_measure).
+// By shade: curvature, texture coordinates, or (u,v) in the patch (shade_measure).
 layout(location = 2) in vec2 measure;
 layout(location = 3) in flat uint patch_id;
 
@@ -85,6 +88,10 @@ void main() {
     case SHADE_GAUSSIAN: rgb = shade_flat(shade_gaussian_color(measure.y * frame.radius * frame.radius), n, v); break;
     case SHADE_DIFFERENCE: rgb = shade_flat(shade_difference_color(measure.x), n, v); break;
     case SHADE_PEER: rgb = shade_peer(); break;
+#ifdef MAPPED
+    case SHADE_TEXTURED: rgb = shade_lit(shade_texture(measure), n, v); break;
+    case SHADE_UV: rgb = shade_flat(shade_checker(measure), n, v); break;
+#endif
     default: rgb = shade_lit(gl_FrontFacing ? PORCELAIN : INSIDE, n, v); break;
     }
     color = vec4(rgb, 1.0);

@@ -6,6 +6,7 @@
 pub mod exact;
 pub mod formula;
 pub mod legend;
+pub mod mapped;
 pub mod moving;
 pub mod mutation;
 pub mod picture;

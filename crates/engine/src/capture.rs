@@ -89,7 +89,7 @@ impl Surface {
         self.require_capture()?;
         self.engine().prepare(NO_KERNELS, self.pipelines(tessellation.spacing, Output::Capture))?;
         let frame = self.undrawn_frame(tessellation);
-        let bindings = self.buffers().patches.clone().with(binding::FRAME, &frame.upload(device)?);
+        let bindings = self.patch_bindings().with(binding::FRAME, &frame.upload(device)?);
         let patches = u64::from(self.plan().patches.len() as u32);
         let size = CHUNK_BYTES.min(patches * patch_bytes(segments)).max(patch_bytes(segments));
         let (usage, memory) = (BufferUsage::CAPTURE, Memory::Readback);

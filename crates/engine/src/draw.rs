@@ -38,9 +38,9 @@ impl Output {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum PipelineKey {
     /// Patches of a kind.
-    Patches { kind: PatchKind, spacing: Spacing, output: Output },
+    Patches { kind: PatchKind, spacing: Spacing, output: Output, mapped: bool },
     /// Vertices of the compute evaluator.
-    Grid { output: Output },
+    Grid { output: Output, mapped: bool },
     /// Lines of the cage overlay: those in sight, or all, behind the surface too.
     Cage { target: Target, hidden: bool },
 }
@@ -68,8 +68,8 @@ fn patch_points(kind: PatchKind) -> u32 {
 impl PipelineKey {
     pub(crate) fn make(self, engine: &Engine) -> Result<GraphicsPipeline, EngineError> {
         match self {
-            Self::Patches { kind, spacing, output } => make_patches(engine, kind, spacing, output),
-            Self::Grid { output } => make_grid(engine, output),
+            Self::Patches { kind, spacing, output, mapped } => make_patches(engine, kind, spacing, output, mapped),
+            Self::Grid { output, mapped } => make_grid(engine, output, mapped),
             Self::Cage { target, hidden } => make_cage(engine, target, hidden),
         }
     }
@@ -80,14 +80,16 @@ fn make_patches(
     kind: PatchKind,
     spacing: Spacing,
     output: Output,
+    mapped: bool,
 ) -> Result<GraphicsPipeline, EngineError> {
     let capture = if output == Output::Capture { ",capture" } else { "" };
     let [vertex, control, evaluation] = stages(kind);
     let vertex = engine.shader(&vertex)?;
     let control = engine.shader(&control)?;
-    let evaluation = engine.shader(&format!("{evaluation}#{}{capture}", spacing.variant()))?;
-    let fragment = fragment(engine, output)?;
-    let name = patches_name(kind, spacing, output);
+    let maps = if mapped { ",mapped" } else { "" };
+    let evaluation = engine.shader(&format!("{evaluation}#{}{capture}{maps}", spacing.variant()))?;
+    let fragment = fragment(engine, output, mapped)?;
+    let name = patches_name(kind, spacing, output) + mapped_name(mapped);
     let specialization = [(constant::SPEC_NET_SIZE, patch_points(kind)), (constant::SPEC_SHADE, output.shade())];
     let desc = GraphicsPipelineDesc {
         tessellation: Some(Stages { control: &control, evaluation: &evaluation, patch_points: patch_points(kind) }),
@@ -119,18 +121,23 @@ fn output_name(output: Output) -> String {
     }
 }
 
-fn fragment(engine: &Engine, output: Output) -> Result<Option<Shader>, EngineError> {
+fn mapped_name(mapped: bool) -> &'static str {
+    if mapped { ", mapped" } else { "" }
+}
+
+fn fragment(engine: &Engine, output: Output, mapped: bool) -> Result<Option<Shader>, EngineError> {
     match output {
+        Output::Fill(..) if mapped => Ok(Some(engine.shader("shade/surface.frag#mapped")?)),
         Output::Fill(..) => Ok(Some(engine.shader("shade/surface.frag")?)),
         Output::Lines(_) => Ok(Some(engine.shader("shade/wire.frag")?)),
         Output::Capture => Ok(None),
     }
 }
 
-fn make_grid(engine: &Engine, output: Output) -> Result<GraphicsPipeline, EngineError> {
+fn make_grid(engine: &Engine, output: Output, mapped: bool) -> Result<GraphicsPipeline, EngineError> {
     let vertex = engine.shader("shade/grid.vert")?;
-    let fragment = fragment(engine, output)?;
-    let name = format!("grid, {}", output_name(output));
+    let fragment = fragment(engine, output, mapped)?;
+    let name = format!("grid, {}{}", output_name(output), mapped_name(mapped));
     let desc = GraphicsPipelineDesc {
         fragment: fragment.as_ref(),
         topology: Topology::Triangles,
@@ -205,7 +212,8 @@ pub(crate) fn runs(lists: &[PatchList], longest: u32) -> impl Iterator<Item = Ru
 impl Surface {
     /// The pipelines that its patches need, one for each kind present.
     pub(crate) fn pipelines(&self, spacing: Spacing, output: Output) -> impl Iterator<Item = PipelineKey> {
-        self.plan().lists.iter().map(move |list| PipelineKey::Patches { kind: list.kind, spacing, output })
+        let mapped = self.is_mapped();
+        self.plan().lists.iter().map(move |list| PipelineKey::Patches { kind: list.kind, spacing, output, mapped })
     }
 
     /// The draw of a run of patches; `bindings` are those of the surface and the frame.
@@ -225,7 +233,8 @@ impl Surface {
             weights: list.weights,
             overshoot: overshoot(list, &self.plan().weights),
         };
-        let key = PipelineKey::Patches { kind: list.kind, spacing: tessellation.spacing, output };
+        let (spacing, mapped) = (tessellation.spacing, self.is_mapped());
+        let key = PipelineKey::Patches { kind: list.kind, spacing, output, mapped };
         Ok(Draw {
             pipeline: self.engine().pipeline(key)?,
             bindings: bindings.clone(),

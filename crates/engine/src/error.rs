@@ -64,6 +64,18 @@ pub enum EngineError {
         /// What is wrong with it.
         reason: String,
     },
+    /// Something takes texture coordinates, and the cage has none.
+    #[error("the cage has no texture coordinates: textures and displacements need them; unwrap the model where it was made")]
+    NoUv,
+    /// A shade shows texture coordinates, and the surface was made without.
+    #[error("the shade {shade} shows texture coordinates: give the surface some by Surface::with_maps")]
+    NotMapped {
+        /// Name of the shade.
+        shade: &'static str,
+    },
+    /// A picture cannot be used.
+    #[error(transparent)]
+    Map(#[from] crate::MapError),
     /// A point that was asked for is not on the surface.
     #[error("there is no point (face {face}, sub {sub}, s {s}, t {t}): {reason}")]
     NoSuchPoint {

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use bytemuck::{NoUninit, bytes_of};
 use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, ComputePass, Draw, Memory, Recording, Vertices};
-use osculate_shaders::layout::{GridPatch, KernelPush};
 use osculate_shaders::{binding, constant};
+use osculate_shaders::layout::{GridPatch, KernelPush};
 use osculate_subdiv::PatchForm;
 
 use crate::draw::{Output, PipelineKey};
@@ -18,14 +18,19 @@ use crate::{CapturedVertex, EngineError, Factors, Shade, Surface, Tessellation};
 /// Most bytes of vertices made at once, unless the device allows less.
 const CHUNK_BYTES: u64 = 64 << 20;
 
-/// The kernel of a form.
-fn kernel(form: PatchForm) -> &'static str {
-    match form {
-        PatchForm::Bicubic => "evaluate/bicubic.comp",
-        PatchForm::Gregory => "evaluate/gregory.comp",
-        PatchForm::Stam => "evaluate/stam.comp",
-        PatchForm::Biseptic => "evaluate/biseptic.comp",
-        PatchForm::Triangle => "evaluate/triangle.comp",
+/// The kernel of a form, for surfaces with texture coordinates or without.
+fn kernel(form: PatchForm, mapped: bool) -> &'static str {
+    match (form, mapped) {
+        (PatchForm::Bicubic, false) => "evaluate/bicubic.comp",
+        (PatchForm::Gregory, false) => "evaluate/gregory.comp",
+        (PatchForm::Stam, false) => "evaluate/stam.comp",
+        (PatchForm::Biseptic, false) => "evaluate/biseptic.comp",
+        (PatchForm::Triangle, false) => "evaluate/triangle.comp",
+        (PatchForm::Bicubic, true) => "evaluate/bicubic.comp#mapped",
+        (PatchForm::Gregory, true) => "evaluate/gregory.comp#mapped",
+        (PatchForm::Stam, true) => "evaluate/stam.comp#mapped",
+        (PatchForm::Biseptic, true) => "evaluate/biseptic.comp#mapped",
+        (PatchForm::Triangle, true) => "evaluate/triangle.comp#mapped",
     }
 }
 
@@ -40,6 +45,8 @@ pub(crate) enum Measured {
     Curvature,
     /// Width of the triangles in pixels.
     Width,
+    /// Texture coordinates.
+    Texture,
 }
 
 impl Measured {
@@ -49,6 +56,7 @@ impl Measured {
             None => Self::Parameters,
             Some(Shade::Curvature | Shade::Gaussian) => Self::Curvature,
             Some(Shade::Wireframe) => Self::Width,
+            Some(Shade::Textured | Shade::Uv) => Self::Texture,
             Some(_) => Self::Outline,
         }
     }
@@ -60,6 +68,7 @@ impl Measured {
             Self::Outline => constant::SHADE_LIT,
             Self::Curvature => constant::SHADE_CURVATURE,
             Self::Width => constant::SHADE_WIREFRAME,
+            Self::Texture => constant::SHADE_UV,
         }
     }
 
@@ -70,6 +79,7 @@ impl Measured {
             Self::Outline => "outline",
             Self::Curvature => "curvature",
             Self::Width => "width",
+            Self::Texture => "texture",
         }
     }
 }
@@ -140,7 +150,7 @@ impl<'a> Grids<'a> {
     ) -> Result<Self, EngineError> {
         surface.engine().prepare(surface.grid_kernels(shade), [])?;
         let parameters = upload(surface, "grid parameters", rates.parameters())?;
-        let bindings = surface.buffers().patches.clone().with(binding::GRID_PARAMETERS, &parameters);
+        let bindings = surface.patch_bindings().with(binding::GRID_PARAMETERS, &parameters);
         Ok(Self { surface, rates, layout, measure: Measured::of(shade), memory, bindings })
     }
 
@@ -187,7 +197,7 @@ impl<'a> Grids<'a> {
                 continue;
             }
             let push = KernelPush { count: end - first, first: first - chunk.patches.start, old_distance: 0 };
-            let name = kernel(list.kind.form());
+            let name = kernel(list.kind.form(), self.surface.is_mapped());
             recording.compute(ComputePass {
                 name: name.to_owned(),
                 pipeline: self.surface.engine().kernel(KernelKey { shader: name, measure: self.measure })?,
@@ -217,7 +227,7 @@ impl<'a> Grids<'a> {
         output: Output,
     ) -> Result<Draw, EngineError> {
         Ok(Draw {
-            pipeline: self.surface.engine().pipeline(PipelineKey::Grid { output })?,
+            pipeline: self.surface.engine().pipeline(PipelineKey::Grid { output, mapped: self.surface.is_mapped() })?,
             bindings: chunk.bindings.clone().with(binding::FRAME, frame),
             push: Vec::new(),
             vertices: Vertices::Indexed { indices: indices.clone(), range: 0..(indices.size() / 4) as u32 },
@@ -234,8 +244,8 @@ fn upload<T: NoUninit>(surface: &Surface, name: &str, data: &[T]) -> Result<Buff
 impl Surface {
     /// The kernels that its patches need for pictures in a shade, or for none.
     pub(crate) fn grid_kernels(&self, shade: Option<Shade>) -> impl Iterator<Item = KernelKey> {
-        let measure = Measured::of(shade);
-        self.plan().lists.iter().map(move |list| KernelKey { shader: kernel(list.kind.form()), measure })
+        let (measure, mapped) = (Measured::of(shade), self.is_mapped());
+        self.plan().lists.iter().map(move |list| KernelKey { shader: kernel(list.kind.form(), mapped), measure })
     }
 
     /// How the edges are divided.

@@ -34,6 +34,7 @@ mod grid;
 mod kernels;
 mod keys;
 mod look;
+mod maps;
 mod memo;
 mod pipelines;
 mod render;
@@ -53,6 +54,7 @@ pub use drawing::{DrawPlan, Drawing, DrawingDesc};
 pub use engine::{Engine, EngineDesc};
 pub use error::EngineError;
 pub use keys::VertexKey;
+pub use maps::{ColorMap, Coloring, Displacement, HeightMap, MapError, MapPlacement, MapsDesc, UvOrigin};
 pub use osculate_cage::{BoundaryRule, Cage};
 /// The device layer, for programs that put the library's passes and draws into recordings of their own.
 pub use osculate_gpu as gpu;

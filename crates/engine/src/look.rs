@@ -49,12 +49,16 @@ impl Look<'_> {
 
     /// Makes all pipelines that surfaces will need.
     pub(crate) fn prepare(&self, engine: &Engine, surfaces: &[&Surface]) -> Result<(), EngineError> {
+        if self.shade.is_mapped() && !surfaces.iter().all(|surface| surface.is_mapped()) {
+            return Err(EngineError::NotMapped { shade: self.shade.name() });
+        }
         let (target, tessellation) = (self.target, self.tessellation);
         let cage = self.cage.then_some([false, true].map(|hidden| PipelineKey::Cage { target, hidden }));
         let cage = cage.into_iter().flatten();
         if tessellation.renders_in_compute() {
             let kernels = surfaces.iter().flat_map(|surface| surface.grid_kernels(Some(self.shade)));
-            return engine.prepare(kernels, self.outputs().map(|output| PipelineKey::Grid { output }).chain(cage));
+            let grids = |output| surfaces.iter().map(move |one| PipelineKey::Grid { output, mapped: one.is_mapped() });
+            return engine.prepare(kernels, self.outputs().flat_map(grids).chain(cage));
         }
         let patches = |output| surfaces.iter().flat_map(move |surface| surface.pipelines(tessellation.spacing, output));
         engine.prepare(NO_KERNELS, self.outputs().flat_map(patches).chain(cage))
@@ -75,7 +79,8 @@ impl Look<'_> {
             tessellation: self.tessellation,
             view: Some((self.camera, self.size)),
             line_color: WIRE,
-            culling: self.cull_view(),
+            // What bounds a patch does not bound what it is moved to.
+            culling: self.cull_view().filter(|_| !surface.is_displaced()),
         }
     }
 
@@ -97,7 +102,7 @@ impl Look<'_> {
 
     /// The draws of all patches by the tessellator.
     pub(crate) fn patches(&self, surface: &Surface, frame: &Buffer) -> Result<Vec<Draw>, EngineError> {
-        let bindings = surface.buffers().patches.clone().with(binding::FRAME, frame);
+        let bindings = surface.patch_bindings().with(binding::FRAME, frame);
         let longest = surface.engine().patches_per_draw(self.tessellation.max_segments()?);
         let runs = || runs(&surface.plan().lists, longest);
         let draw = |(output, run)| surface.draw(run, &bindings, self.tessellation, output);

@@ -32,10 +32,14 @@ pub enum Shade {
     Peer,
     /// The distance to another surface of the same cage: [`crate::render_difference`] draws it.
     Difference,
+    /// Lit, in the colours of [`crate::Coloring`]; for surfaces with maps.
+    Textured,
+    /// Squares in the plane of texture coordinates, sixteen along a unit; for surfaces with maps.
+    Uv,
 }
 
 impl Shade {
-    /// All that show one surface.
+    /// All that show one surface whatever it is made of: [`Self::Textured`] and [`Self::Uv`] need maps.
     pub const ALL: &'static [Self] = &[
         Self::Lit,
         Self::Normals,
@@ -63,7 +67,14 @@ impl Shade {
             Self::Gaussian => "gaussian",
             Self::Peer => "peer",
             Self::Difference => "difference",
+            Self::Textured => "textured",
+            Self::Uv => "uv",
         }
+    }
+
+    /// Whether it shows texture coordinates.
+    pub(crate) fn is_mapped(self) -> bool {
+        matches!(self, Self::Textured | Self::Uv)
     }
 
     /// The number by which shaders know it.
@@ -80,6 +91,8 @@ impl Shade {
             Self::Gaussian => constant::SHADE_GAUSSIAN,
             Self::Peer => constant::SHADE_PEER,
             Self::Difference => constant::SHADE_DIFFERENCE,
+            Self::Textured => constant::SHADE_TEXTURED,
+            Self::Uv => constant::SHADE_UV,
         }
     }
 }

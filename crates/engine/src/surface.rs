@@ -11,6 +11,7 @@ use osculate_subdiv::{Place, PlanDesc, SurfacePlan};
 
 use crate::buffers::SurfaceBuffers;
 use crate::kernels::Kernel;
+use crate::maps::Maps;
 use crate::{CageSpace, Engine, EngineError, Scheme};
 
 /// How to make a surface of a cage.
@@ -33,6 +34,8 @@ pub struct Surface {
     buffers: Arc<SurfaceBuffers>,
     cage_edge_count: u32,
     boundary_edge_count: usize,
+    /// Texture coordinates, and what they are for.
+    maps: Option<Arc<Maps>>,
 }
 
 impl Surface {
@@ -54,9 +57,15 @@ impl Surface {
             space: CageSpace::new(cage.bounds()),
             cage_edge_count: edges.len() as u32,
             boundary_edge_count,
+            maps: None,
         };
         surface.set_points(cage.positions())?;
         Ok(surface)
+    }
+
+    /// The same tables and points with maps.
+    pub(crate) fn with(&self, maps: Maps) -> Self {
+        Self { maps: Some(Arc::new(maps)), ..self.clone() }
     }
 
     /// Moves the cage: uploads its points and recomputes everything that follows from them. The space that the device computes in stays that of
@@ -237,6 +246,10 @@ impl Surface {
     /// If the device fails.
     pub fn read_coefficients(&self) -> Result<Vec<[f32; 3]>, EngineError> {
         Ok(self.engine.device().download(&self.buffers.coefficients, ..)?)
+    }
+
+    pub(crate) fn maps(&self) -> Option<&Maps> {
+        self.maps.as_deref()
     }
 
     pub(crate) fn buffers(&self) -> &SurfaceBuffers {

@@ -72,6 +72,12 @@ impl Bindings {
         self.set(binding, Bound::StorageImage { image: image.clone() })
     }
 
+    /// Adds all that others hold, in place of anything that had one of their numbers.
+    #[must_use]
+    pub fn with_all(self, others: &Self) -> Self {
+        others.entries.iter().fold(self, |all, (binding, bound)| all.set(*binding, bound.clone()))
+    }
+
     fn set(mut self, binding: u32, bound: Bound) -> Self {
         let entries = Arc::make_mut(&mut self.entries);
         match entries.binary_search_by_key(&binding, |(number, _)| *number) {

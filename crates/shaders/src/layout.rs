@@ -178,6 +178,28 @@ shared_structs! {
         pub morph_target: u32,
     }
 
+    /// How texture coordinates are looked up (`shaders/include/attributes.glsl`).
+    pub struct Mapping {
+        /// From texture coordinates to those of the heights: the columns of a matrix.
+        pub height_axes: [[f32; 2]; 2],
+        /// The image of the origin.
+        pub height_origin: [f32; 2],
+        /// What a height of 1 moves, in cage space.
+        pub height_scale: f32,
+        /// What everything is moved, in cage space.
+        pub height_bias: f32,
+        /// From texture coordinates to those of the colours.
+        pub color_axes: [[f32; 2]; 2],
+        /// The image of the origin.
+        pub color_origin: [f32; 2],
+        /// What lies beyond the heights: a `WRAP_*` constant for u, and one for v from bit `WRAP_BITS`.
+        pub height_wrap: u32,
+        /// Levels of the heights.
+        pub height_levels: u32,
+        /// Linear; multiplied with the colours.
+        pub base_color: [f32; 4],
+    }
+
     /// A point that `shaders/evaluate/sample.comp` is asked for.
     pub struct SampleRequest {
         /// Global id of the patch.

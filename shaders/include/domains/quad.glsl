@@ -21,6 +21,29 @@ float edge_parameter(uint side, uint flip, vec2 uv) {
     return ((side >> 1u) ^ flip) == 1u ? reversed : x;
 }
 
+// What the corners count for.
+vec4 corner_weights(vec2 uv) {
+    precise vec2 rest = 1.0 - uv;
+    precise vec4 r = vec4(rest.x * rest.y, uv.x * rest.y, uv.x * uv.y, rest.x * uv.y);
+    return r;
+}
+
+vec4 corner_weights_du(vec2 uv) {
+    precise vec4 r = vec4(uv.y - 1.0, 1.0 - uv.y, uv.y, -uv.y);
+    return r;
+}
+
+vec4 corner_weights_dv(vec2 uv) {
+    precise vec4 r = vec4(uv.x - 1.0, -uv.x, uv.x, 1.0 - uv.x);
+    return r;
+}
+
+// Reciprocals of the distances from the sides.
+vec4 side_nearness(vec2 uv) {
+    precise vec4 r = 1.0 / vec4(uv.y, 1.0 - uv.x, 1.0 - uv.y, uv.x);
+    return r;
+}
+
 // Coordinates that are 0 or 1 on the sides.
 vec2 shade_outline(vec2 uv) {
     return uv;

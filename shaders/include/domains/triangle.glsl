@@ -26,6 +26,25 @@ float edge_parameter(uint side, uint flip, vec2 uv) {
     return end == 0u ? other : end == 1u ? uv.x : uv.y;
 }
 
+// What the corners count for; the fourth is not there.
+vec4 corner_weights(vec2 uv) {
+    return vec4(first_coordinate(uv), uv, 0.0);
+}
+
+vec4 corner_weights_du(vec2 uv) {
+    return vec4(-1.0, 1.0, 0.0, 0.0);
+}
+
+vec4 corner_weights_dv(vec2 uv) {
+    return vec4(-1.0, 0.0, 1.0, 0.0);
+}
+
+// Reciprocals of the distances from the sides, measured by the coordinates that are 0 there.
+vec4 side_nearness(vec2 uv) {
+    precise vec3 r = 1.0 / vec3(uv.y, first_coordinate(uv), uv.x);
+    return vec4(r, 0.0);
+}
+
 // Coordinates that are 0 on the sides.
 vec2 shade_outline(vec2 uv) {
     return vec2(min(min(uv.x, uv.y), first_coordinate(uv)));

@@ -4,6 +4,7 @@ mod animation;
 mod culling;
 mod curvature;
 mod difference;
+mod displacement;
 mod drawing;
 mod evaluators;
 mod exactness;
