@@ -4,7 +4,7 @@ use crate::args::GlobalArgs;
 use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
 use crate::input::InputArgs;
-use crate::options::{CameraArgs, DrawEvaluator, Level, Pixels, SchemeChoice, SpacingArg};
+use crate::options::{CameraArgs, DisplaceArgs, DrawEvaluator, Level, Pixels, SchemeChoice, SpacingArg};
 use crate::progress::Progress;
 use crate::stdout;
 use clap::Args;
@@ -67,6 +67,9 @@ pub(crate) struct CheckArgs {
     json: bool,
 
     #[command(flatten)]
+    displace: DisplaceArgs,
+
+    #[command(flatten)]
     camera: CameraArgs,
 }
 
@@ -75,7 +78,8 @@ Examples:
   osculate check cube.obj
   osculate check cube.obj --levels 1,2.5,64 --spacing odd --json
   osculate check cube.obj --adaptive 4 --camera 1,0,1:0,0,0:0,1,0:60
-  osculate check cube.obj --adaptive 4 --orbit 24 --spacing odd";
+  osculate check cube.obj --adaptive 4 --orbit 24 --spacing odd
+  osculate check unwrapped.obj --displace bricks.png:0.05";
 
 /// Proofs that can be tried.
 pub(crate) struct Job {
@@ -85,6 +89,7 @@ pub(crate) struct Job {
     spacing: SpacingArg,
     evaluator: DrawEvaluator,
     json: bool,
+    displace: DisplaceArgs,
     camera: CameraArgs,
 }
 
@@ -111,6 +116,7 @@ impl CheckArgs {
             spacing: self.spacing,
             evaluator: self.evaluator,
             json: self.json,
+            displace: self.displace,
             camera: self.camera,
         })
     }
@@ -119,6 +125,7 @@ impl CheckArgs {
 /// Tries the proofs and prints what came of them.
 pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let input = job.input.read(global)?;
+    let maps = job.displace.load(&input.cage)?;
     let cases = job.cases(input.cage.bounds())?;
     let progress = Progress::new(global.quiet, (job.schemes.len() * cases.len()) as u64, "proving");
     with_engine(global, |engine: &Engine| {
@@ -126,6 +133,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
         for &scheme in &job.schemes {
             let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
             let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
+            let surface = maps.apply(surface, &input.cage, &job.input)?;
             for case in &cases {
                 let report = check(&surface, &case.tessellation)?;
                 watertight &= report.is_watertight();

@@ -6,7 +6,7 @@ use crate::failure::{Failure, Verdict, WriteError};
 use crate::input::InputArgs;
 use crate::mesh::soup::{Soup, SoupVertex};
 use crate::mesh::{Mesh, Welder, glb, obj, ply, stl};
-use crate::options::{CameraArgs, Output, SchemeName, TessellationArgs};
+use crate::options::{CameraArgs, DisplaceArgs, Output, SchemeName, TessellationArgs};
 use crate::progress::Progress;
 use clap::Args;
 use glam::Vec3;
@@ -43,6 +43,9 @@ pub(crate) struct ExportArgs {
     tessellation: TessellationArgs,
 
     #[command(flatten)]
+    displace: DisplaceArgs,
+
+    #[command(flatten)]
     camera: CameraArgs,
 }
 
@@ -69,6 +72,7 @@ pub(crate) struct Job {
     output: Output<Format>,
     scheme: Scheme,
     tessellation: TessellationArgs,
+    displace: DisplaceArgs,
     camera: CameraArgs,
 }
 
@@ -85,7 +89,14 @@ impl ExportArgs {
         }
         let output = output.apart_from([self.input.file.as_path()])?;
         let scheme = self.scheme.in_this_build()?;
-        Ok(Job { input: self.input, output, scheme, tessellation: self.tessellation, camera: self.camera })
+        Ok(Job {
+            input: self.input,
+            output,
+            scheme,
+            tessellation: self.tessellation,
+            displace: self.displace,
+            camera: self.camera,
+        })
     }
 }
 
@@ -94,9 +105,11 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let input = job.input.read(global)?;
     job.warn_of_coarse_numbers(input.cage.bounds());
     let tessellation = job.tessellation.tessellation(&job.camera, input.cage.bounds())?;
+    let maps = job.displace.load(&input.cage)?;
     let desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary) };
     with_engine(global, |engine: &Engine| {
         let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
+        let surface = maps.apply(surface, &input.cage, &job.input)?;
         let progress = Progress::new(global.quiet, surface.plan().patches.len() as u64, "drawing");
         let drawing = Drawing { cage: &input.cage, surface: &surface, tessellation, progress };
         let path = &job.output.path;

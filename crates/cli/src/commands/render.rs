@@ -4,11 +4,13 @@ use crate::args::GlobalArgs;
 use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
 use crate::input::InputArgs;
-use crate::options::{AnimationArgs, CameraArgs, Colour, NumberedPath, Output, SchemeName, TessellationArgs};
+use crate::options::{
+    AnimationArgs, CameraArgs, Colour, DisplaceArgs, Maps, NumberedPath, Output, SchemeName, TessellationArgs,
+};
 use crate::progress::Progress;
 use clap::{Args, ValueEnum};
 use osculate::{Culling, RenderDesc, Scheme, Shade};
-use osculate_cage::Bounds;
+use osculate_cage::{Bounds, Cage};
 use std::path::PathBuf;
 
 mod film;
@@ -38,6 +40,9 @@ pub(crate) struct RenderArgs {
     tessellation: TessellationArgs,
 
     #[command(flatten)]
+    displace: DisplaceArgs,
+
+    #[command(flatten)]
     camera: CameraArgs,
 
     #[command(flatten)]
@@ -59,6 +64,10 @@ struct LookArgs {
     /// For the shade difference: the distance at which the colours end, in the cage's units. Default: the largest.
     #[arg(long, value_name = "LENGTH", allow_negative_numbers = true, value_parser = length)]
     range: Option<f64>,
+
+    /// For the shade textured: the picture to show, PNG or JPEG. Default: that of the model's own material.
+    #[arg(long, value_name = "IMAGE")]
+    texture: Option<PathBuf>,
 
     /// Draw the edges of the cage too.
     #[arg(long)]
@@ -124,6 +133,10 @@ enum ShadeArg {
     Peer,
     /// The distance to another scheme at the same places: off-white is none, dark violet the largest, which is printed.
     Difference,
+    /// Lit, in the colours of the model's material or of --texture.
+    Textured,
+    /// Squares in the plane of texture coordinates, sixteen along a unit, redder with u and greener with v.
+    Uv,
 }
 
 impl From<ShadeArg> for Shade {
@@ -139,6 +152,8 @@ impl From<ShadeArg> for Shade {
             ShadeArg::Curvature => Self::Curvature,
             ShadeArg::Gaussian => Self::Gaussian,
             ShadeArg::Peer => Self::Peer,
+            ShadeArg::Textured => Self::Textured,
+            ShadeArg::Uv => Self::Uv,
             ShadeArg::Difference => Self::Difference,
         }
     }
@@ -177,8 +192,11 @@ pub(crate) struct Job {
     scheme: Scheme,
     /// What the shade difference compares with.
     against: Option<Scheme>,
+    /// What the shade textured shows, if not the model's own material.
+    texture: Option<PathBuf>,
     look: LookArgs,
     tessellation: TessellationArgs,
+    displace: DisplaceArgs,
     camera: CameraArgs,
     animation: AnimationArgs,
 }
@@ -192,9 +210,11 @@ impl RenderArgs {
             output: Output::new(self.output, &[("png", ())])?.apart_from([self.input.file.as_path()])?,
             scheme: self.scheme.in_this_build()?,
             against: self.look.against()?,
+            texture: self.look.texture()?,
             input: self.input,
             look: self.look,
             tessellation: self.tessellation,
+            displace: self.displace,
             camera: self.camera,
             animation: self.animation,
         })
@@ -202,6 +222,14 @@ impl RenderArgs {
 }
 
 impl LookArgs {
+    /// The picture of the shade textured, for that shade alone.
+    fn texture(&self) -> Result<Option<PathBuf>, Failure> {
+        if self.texture.is_some() && !matches!(self.shade, ShadeArg::Textured) {
+            return Err(Failure::usage("--texture is for the shade textured alone").with_hint("add --shade textured"));
+        }
+        Ok(self.texture.clone())
+    }
+
     /// The scheme that the shade difference compares with, for that shade alone.
     fn against(&self) -> Result<Option<Scheme>, Failure> {
         if matches!(self.shade, ShadeArg::Difference) {
@@ -212,6 +240,18 @@ impl LookArgs {
             Some(option) => Err(Failure::usage(format_args!("{option} is for the shade difference alone"))
                 .with_hint("add --shade difference")),
             None => Ok(None),
+        }
+    }
+}
+
+impl Job {
+    /// The pictures that the surface is mapped with.
+    fn maps(&self, cage: &Cage) -> Result<Maps, Failure> {
+        let maps = self.displace.load(cage)?;
+        match self.look.shade {
+            ShadeArg::Textured => maps.colored(self.texture.as_deref(), cage),
+            ShadeArg::Uv => Ok(maps.with_uv()),
+            _ => Ok(maps),
         }
     }
 }

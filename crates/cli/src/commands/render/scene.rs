@@ -74,9 +74,11 @@ pub(super) fn warn_if_blank(path: &Path, picture: &Picture) -> bool {
 impl Job {
     /// The surfaces on the device.
     pub(super) fn scene<'a>(&'a self, engine: &'a Engine, input: &Input) -> Result<Scene<'a>, Failure> {
+        let maps = self.maps(&input.cage)?;
         let surface = |scheme| {
             let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
-            Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))
+            let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))?;
+            maps.apply(surface, &input.cage, &self.input)
         };
         let size = 2.0 * input.cage.bounds().half_diagonal();
         let against = self.against.map(surface).transpose()?;
