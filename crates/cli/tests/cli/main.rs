@@ -10,6 +10,7 @@ mod device;
 mod export;
 mod gltf;
 mod inspect;
+mod maps;
 mod render;
 mod repair;
 mod sample;
