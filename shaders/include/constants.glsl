@@ -15,7 +15,7 @@
 #define TRIANGLE_POINTS 15
 #define SAMPLE_FLOATS 12
 
-// Threads of a workgroup of the compute evaluator, which evaluates one patch.
+// Threads of a workgroup of the compute evaluator, which evaluates one patch; specialized where another number is better.
 #define GRID_GROUP_SIZE 32
 // 32-bit words of a vertex that it makes: position, normal, measure, patch.
 #define GRID_VERTEX_WORDS 9
@@ -75,5 +75,6 @@
 // Specialization constants.
 #define SPEC_NET_SIZE 0
 #define SPEC_SHADE 1
+#define SPEC_GRID_GROUP 2
 
 #endif

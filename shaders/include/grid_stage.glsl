@@ -14,7 +14,7 @@
 #include "displacement.glsl"
 #endif
 
-layout(local_size_x = GRID_GROUP_SIZE) in;
+layout(local_size_x = GRID_GROUP_SIZE, local_size_x_id = SPEC_GRID_GROUP) in;
 
 layout(std430, set = 0, binding = BINDING_GRID_VERTICES) writeonly buffer GridVertices { uint grid_vertices[]; };
 
@@ -39,23 +39,34 @@ uint control_count();
 // From the basis.
 vec3 change_basis(uint point, uint basis, uint net_size);
 
-bool is_stored() {
-    return (patches[grid.patch_id].tag & TAG_STORED) != 0u;
-}
+#ifdef CONTROL_FROM_STAGE
+// The kernel makes the control points in a way of its own; none of its patches are stored.
+void make_control_points();
 
 vec3 control(uint i) {
-    return is_stored() ? stored_vector(patches[grid.patch_id].net + i) : shared_control[i];
+    return shared_control[i];
+}
+#else
+// Whether the control points of the patch at hand are stored, and where.
+bool stored;
+uint stored_at;
+
+vec3 control(uint i) {
+    return stored ? stored_vector(stored_at + i) : shared_control[i];
 }
 
 void make_control_points() {
-    if (!is_stored()) {
-        PatchRecord p = patches[grid.patch_id];
-        for (uint i = gl_LocalInvocationIndex; i < control_count(); i += GRID_GROUP_SIZE) {
+    PatchRecord p = patches[grid.patch_id];
+    stored = (p.tag & TAG_STORED) != 0u;
+    stored_at = p.net;
+    if (!stored) {
+        for (uint i = gl_LocalInvocationIndex; i < control_count(); i += gl_WorkGroupSize.x) {
             shared_control[i] = change_basis(i, p.basis, p.net_size);
         }
     }
     barrier();
 }
+#endif
 
 void store_vector(uint at, vec3 v) {
     grid_vertices[at] = floatBitsToUint(v.x);
@@ -63,18 +74,9 @@ void store_vector(uint at, vec3 v) {
     grid_vertices[at + 2u] = floatBitsToUint(v.z);
 }
 
-// Evaluates the vertex with that number at (u,v).
-void write_vertex(uint number, vec2 uv) {
+// Stores the vertex with that number at (u,v), displaced if the surface is. `inner` is for that, and for what is measured.
+void store_vertex(uint number, vec2 uv, SurfacePoint point, InnerPoint inner) {
     uint id = grid.patch_id;
-    SurfacePoint point;
-    InnerPoint inner = InnerPoint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
-    bool is_shared = shared_point(id, uv, point);
-    if (!is_shared || SHADE == SHADE_WIREFRAME) {
-        inner = inner_point(id, uv);
-    }
-    if (!is_shared) {
-        point = SurfacePoint(inner.position, unit_or_zero(inner.plane));
-    }
 #ifdef MAPPED
     point = displaced_point(id, uv, inner, point);
 #endif
@@ -125,16 +127,22 @@ void write_patch() {
     for (uint side = 0u; side < side_count(); ++side) {
         border += rate_segments(grid.side_rate[side]);
     }
-    for (uint i = gl_LocalInvocationIndex; i < border + inner_count(grid); i += GRID_GROUP_SIZE) {
-        GridVertex vertex;
-        if (i < border) {
-            vertex = border_vertex(i);
-        } else {
-            vertex = GridVertex(inner_uv(grid, i - border), grid.first_inner + i - border, true);
+    // Border and inside are loops of their own: where lanes go through both branches of a condition, each vertex would be evaluated both ways.
+    for (uint i = gl_LocalInvocationIndex; i < border; i += gl_WorkGroupSize.x) {
+        GridVertex vertex = border_vertex(i);
+        SurfacePoint point;
+        if (vertex.owned && shared_point(grid.patch_id, vertex.uv, point)) {
+            InnerPoint inner = InnerPoint(vec3(0.0), vec3(0.0), vec3(0.0), vec3(0.0));
+            if (SHADE == SHADE_WIREFRAME) {
+                inner = inner_point(grid.patch_id, vertex.uv);
+            }
+            store_vertex(vertex.number, vertex.uv, point, inner);
         }
-        if (vertex.owned) {
-            write_vertex(vertex.number, vertex.uv);
-        }
+    }
+    for (uint i = gl_LocalInvocationIndex; i < inner_count(grid); i += gl_WorkGroupSize.x) {
+        vec2 uv = inner_uv(grid, i);
+        InnerPoint inner = inner_point(grid.patch_id, uv);
+        store_vertex(grid.first_inner + i, uv, SurfacePoint(inner.position, unit_or_zero(inner.plane)), inner);
     }
 }
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 use osculate_gpu::Device;
-use osculate_shaders::ShaderSet;
+use osculate_shaders::{ShaderSet, constant};
 
 use crate::pipelines::{PipelineObserver, Pipelines};
 
@@ -68,6 +68,13 @@ impl Engine {
 
     pub(crate) fn pipelines(&self) -> &Pipelines {
         &self.inner.pipelines
+    }
+
+    /// Threads of a workgroup of the compute evaluator.
+    ///
+    /// llvmpipe runs a workgroup on one processor, its threads in vectors of eight. Each vector reads the patch anew, so one is best.
+    pub(crate) fn grid_group(&self) -> u32 {
+        if self.device().info().is_llvmpipe { 8 } else { constant::GRID_GROUP_SIZE }
     }
 
     /// Most patches of one draw with so many segments along an edge.

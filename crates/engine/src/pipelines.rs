@@ -169,7 +169,8 @@ impl Engine {
         let key = key.into();
         self.pipelines().kernels.get_or_make(key, || {
             let shader = self.shader(key.shader)?;
-            let specialization = &[(constant::SPEC_SHADE, key.measure.shade())];
+            let specialization =
+                &[(constant::SPEC_SHADE, key.measure.shade()), (constant::SPEC_GRID_GROUP, self.grid_group())];
             let desc = ComputePipelineDesc { name: &key.name(), shader: &shader, specialization };
             self.timed(|| Ok(self.device().compute_pipeline(&desc)?), ComputePipeline::name)
         })

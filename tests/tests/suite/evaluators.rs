@@ -276,7 +276,7 @@ fn edges_numbered_in_the_wrong_direction_are_noticed() {
 
 #[test]
 fn vertices_in_the_wrong_place_are_noticed() {
-    let swapped = in_stage("grid.first_inner + i - border, true", "grid.first_inner + ((i - border) ^ 1u), true");
+    let swapped = in_stage("store_vertex(grid.first_inner + i, uv,", "store_vertex(grid.first_inner + (i ^ 1u), uv,");
     sabotaged(swapped, |report| report.inverted > 0);
 }
 
