@@ -163,7 +163,7 @@ fn coarse_tessellations_see_means_of_the_map() {
     let gpu = gpu();
     let cage = from_above(&zoo::grid(1, 1));
     // Two texels a wave: what single texels say to a coarse grid is anything from 0 to 1.
-    let map = heights(256, |u, _| if (u * 256.0) as u32 % 2 == 0 { 0.0 } else { 1.0 });
+    let map = heights(256, |u, _| f64::from((u * 256.0) as u32 % 2));
     let surface = displaced(&gpu, &cage, Scheme::Gregory2, &map, 1.0, 0.0);
     let plain = surface_of(&gpu, &cage, Scheme::Gregory2, None).unwrap();
     let (from, to) = (exact::captured(&plain, &level(4.0)), exact::captured(&surface, &level(4.0)));
