@@ -22,4 +22,4 @@ pub(crate) use output::{Output, check_apart, check_place};
 pub(crate) use read::ReadArgs;
 pub(crate) use scheme::{SchemeChoice, SchemeName};
 pub(crate) use size::Size;
-pub(crate) use tessellation::{DrawEvaluator, SpacingArg, TessellationArgs, adaptive};
+pub(crate) use tessellation::{DrawEvaluator, SpacingArg, TessellationArgs};

@@ -40,7 +40,7 @@ impl TessellationArgs {
 }
 
 /// Factors that make edges of so many pixels in the camera's picture.
-pub(crate) fn adaptive(pixels: Pixels, camera: &CameraArgs, bounds: Bounds) -> Result<Factors, Failure> {
+fn adaptive(pixels: Pixels, camera: &CameraArgs, bounds: Bounds) -> Result<Factors, Failure> {
     let (pixels, height) = (pixels.get(), camera.size.height);
     Ok(Factors::Adaptive { pixels, camera: camera.camera(bounds)?, height })
 }
