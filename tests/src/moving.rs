@@ -66,7 +66,8 @@ impl Palette {
             boxes.push(half);
         }
         boxes.sort_by_key(|found| found.mean().map(u32::from).iter().sum::<u32>());
-        let members = (0..=u8::MAX).zip(&boxes).flat_map(|(index, found)| found.colours.iter().map(move |c| (c.0, index)));
+        let members =
+            (0..=u8::MAX).zip(&boxes).flat_map(|(index, found)| found.colours.iter().map(move |c| (c.0, index)));
         Self { index_of: members.collect(), colours: boxes.iter().map(Box::mean).collect() }
     }
 }

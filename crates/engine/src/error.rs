@@ -65,7 +65,9 @@ pub enum EngineError {
         reason: String,
     },
     /// Something takes texture coordinates, and the cage has none.
-    #[error("the cage has no texture coordinates: textures and displacements need them; unwrap the model where it was made")]
+    #[error(
+        "the cage has no texture coordinates: textures and displacements need them; unwrap the model where it was made"
+    )]
     NoUv,
     /// A shade shows texture coordinates, and the surface was made without.
     #[error("the shade {shade} shows texture coordinates: give the surface some by Surface::with_maps")]

@@ -4,8 +4,8 @@ use std::ops::Range;
 
 use bytemuck::{NoUninit, bytes_of};
 use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, ComputePass, Draw, Memory, Recording, Vertices};
-use osculate_shaders::{binding, constant};
 use osculate_shaders::layout::{GridPatch, KernelPush};
+use osculate_shaders::{binding, constant};
 use osculate_subdiv::PatchForm;
 
 use crate::draw::{Output, PipelineKey};
