@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what building and running need and this machine lacks: Vulkan loader, a Vulkan driver, shaderc's libraries and a C++
-# compiler; with --tests also Mesa's software driver, the validation layers and Xvfb, an X server without a screen. Does
+# compiler; with --tests also Mesa's software driver, the validation layers, Xvfb, an X server without a screen, and what opens windows there. Does
 # nothing, quickly, when all is there.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
@@ -43,6 +43,12 @@ missing_packages() {
         has_driver 'lvp_icd*.json' || echo mesa-vulkan-drivers
         has_layer khronos_validation || echo vulkan-validationlayers
         have Xvfb || echo xvfb
+        have xdotool || echo xdotool
+        # What winit loads when it opens a window.
+        has_library libX11-xcb.so.1 || echo libx11-xcb1
+        has_library libXcursor.so.1 || echo libxcursor1
+        has_library libXi.so.6 || echo libxi6
+        has_library libxkbcommon-x11.so.0 || echo libxkbcommon-x11-0
     else
         has_driver '*.json' || echo mesa-vulkan-drivers
     fi

@@ -21,6 +21,8 @@ layout(location = 0) out vec4 color;
 // Outside and inside of the surface: only open surfaces show the inside.
 const vec3 PORCELAIN = vec3(0.640, 0.605, 0.560);
 const vec3 INSIDE = vec3(0.400, 0.500, 0.590);
+// What is behind a hole: nothing else is as bright.
+const vec3 LEAK = vec3(1.0, 0.0, 1.0);
 
 vec3 shade_view(vec3 a) {
     return mat3(frame.view_from_cage) * a;
@@ -92,6 +94,7 @@ void main() {
     case SHADE_TEXTURED: rgb = shade_lit(shade_texture(measure), n, v); break;
     case SHADE_UV: rgb = shade_flat(shade_checker(measure), n, v); break;
 #endif
+    case SHADE_LEAKS: rgb = gl_FrontFacing ? 0.5 * shade_lit(PORCELAIN, n, v) : LEAK; break;
     default: rgb = shade_lit(gl_FrontFacing ? PORCELAIN : INSIDE, n, v); break;
     }
     color = vec4(rgb, 1.0);

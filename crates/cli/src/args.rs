@@ -1,12 +1,14 @@
 //! The command line as a whole; each command's own options are in its file under `commands`.
 
+#[cfg(feature = "viewer")]
+use crate::commands::view;
 use crate::commands::{bench, check, compare, export, inspect, render, repair, sample};
 use clap::{ArgAction, Args, Parser, Subcommand};
 
 /// Catmull-Clark surfaces through Vulkan's tessellation stages, from the command line.
 ///
 /// Reads a control cage (OBJ, PLY, OFF, glTF, USD), puts its Catmull-Clark surface through tessellation shaders and gives you a
-/// picture, triangles, points, or the proof that the surface has no cracks. No window is needed.
+/// picture, triangles, points, or the proof that the surface has no cracks, without a window; view opens one.
 #[derive(Parser, Debug)]
 #[command(name = "osculate", version, after_help = EXAMPLES, subcommand_value_name = "COMMAND")]
 pub(crate) struct Cli {
@@ -55,10 +57,13 @@ pub(crate) enum Command {
     Repair(repair::RepairArgs),
     Bench(bench::BenchArgs),
     Compare(compare::CompareArgs),
+    #[cfg(feature = "viewer")]
+    View(view::ViewArgs),
 }
 
 const EXAMPLES: &str = "\
 Examples:
+  osculate view assets/cages/*.obj
   osculate render assets/cages/torus.obj -o torus.png
   osculate inspect assets/cages/torus.obj
   osculate check assets/cages/torus.obj --levels 1,5,8

@@ -70,6 +70,8 @@ fn run(cli: Cli) -> Result<Verdict, Failure> {
         Some(Command::Inspect(args)) => commands::inspect::run(&args.validate()?, global),
         Some(Command::Repair(args)) => commands::repair::run(&args.validate()?, global),
         Some(Command::Compare(args)) => commands::compare::run(&args.validate()?),
+        #[cfg(feature = "viewer")]
+        Some(Command::View(args)) => commands::view::run(args.validate(global)?),
         None => Err(no_command()),
     }
 }

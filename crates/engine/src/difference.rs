@@ -9,7 +9,10 @@ use rayon::prelude::*;
 use crate::canvas::Canvas;
 use crate::evaluate::{GridChunk, Grids};
 use crate::grid::Layout;
-use crate::{CapturedVertex, Engine, EngineError, Picture, RenderDesc, Shade, Surface, SurfacePoint, Tessellation};
+use crate::{
+    CapturedVertex, Drawing, DrawingDesc, Engine, EngineError, Evaluator, Picture, RenderDesc, Shade, Surface,
+    SurfacePoint, Tessellation,
+};
 
 /// What [`render_difference`] measured, in the cage's own length: distances between two surfaces at the same places on the cage, those of the vertices drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,25 +38,32 @@ pub fn render_difference(
 ) -> Result<(Picture, Difference), EngineError> {
     let desc = RenderDesc { shade: Shade::Difference, ..*desc };
     let comparison = Comparison { surface, against, tessellation: &desc.tessellation };
-    let range = match range {
-        Some(range) => range,
-        None => comparison.measure()?.largest,
-    };
     let mut canvas = Canvas::new(engine, &desc)?;
     let frame = canvas.frame(surface)?;
-    let mut distances = Distances::default();
-    comparison.for_each_chunk(|grids, chunk, vertices, of_vertices| {
-        distances.add(of_vertices);
-        for (vertex, distance) in vertices.iter_mut().zip(of_vertices) {
-            // The same surface twice has no largest distance.
-            vertex.uv = [if range > 0.0 { (distance / range) as f32 } else { 0.0 }, 0.0];
-        }
-        let measured = engine.device().upload("measured vertices", BufferUsage::STORAGE, vertices)?;
-        canvas.add_chunk(grids, &chunk.with_vertices(measured), &frame, Recording::new())
-    })?;
+    let difference =
+        comparison.show(range, |grids, chunk| canvas.add_chunk(grids, &chunk, &frame, Recording::new()))?;
     canvas.add_cage(surface)?;
-    let difference = Difference { largest: distances.largest, mean: distances.mean(), range };
     Ok((canvas.finish()?, difference))
+}
+
+impl Drawing {
+    /// The same as [`render_difference`] shows, for frames: distances between the surfaces as they are now, which do not follow when
+    /// either moves.
+    ///
+    /// # Errors
+    /// If `against` lacks a face that `surface` has, or as [`Self::new`].
+    pub fn of_difference(
+        [surface, against]: [&Surface; 2],
+        desc: &DrawingDesc,
+        range: Option<f64>,
+    ) -> Result<(Self, Difference), EngineError> {
+        let tessellation = Tessellation { evaluator: Evaluator::Compute, ..desc.tessellation };
+        let mut drawing = Self::empty(surface, &DrawingDesc { shade: Shade::Difference, tessellation, ..*desc })?;
+        let comparison = Comparison { surface, against, tessellation: &tessellation };
+        let difference = comparison.show(range, |grids, chunk| drawing.add_chunk(grids, &chunk))?;
+        drawing.add_cage()?;
+        Ok((drawing, difference))
+    }
 }
 
 /// Distances found so far.
@@ -91,6 +101,29 @@ impl Comparison<'_> {
             Ok(())
         })?;
         Ok(distances)
+    }
+
+    /// Hands on the chunks of the first surface, their vertices with distances in place of (u,v), as parts of `range`.
+    fn show(
+        &self,
+        range: Option<f64>,
+        mut draw: impl FnMut(&Grids<'_>, GridChunk) -> Result<(), EngineError>,
+    ) -> Result<Difference, EngineError> {
+        let range = match range {
+            Some(range) => range,
+            None => self.measure()?.largest,
+        };
+        let mut distances = Distances::default();
+        self.for_each_chunk(|grids, chunk, vertices, of_vertices| {
+            distances.add(of_vertices);
+            for (vertex, distance) in vertices.iter_mut().zip(of_vertices) {
+                // The same surface twice has no largest distance.
+                vertex.uv = [if range > 0.0 { (distance / range) as f32 } else { 0.0 }, 0.0];
+            }
+            let device = self.surface.engine().device();
+            draw(grids, chunk.with_vertices(device.upload("measured vertices", BufferUsage::STORAGE, vertices)?))
+        })?;
+        Ok(Difference { largest: distances.largest, mean: distances.mean(), range })
     }
 
     /// Evaluates the grids of the first surface: hands on the vertices of each chunk with their distances to the second.

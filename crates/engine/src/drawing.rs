@@ -1,6 +1,7 @@
 //! Surfaces that are drawn frame after frame: all that drawing them takes stays on the device.
 
-use osculate_gpu::{Buffer, BufferUsage, Draw, Recording};
+use osculate_gpu::{Bindings, Buffer, BufferUsage, Draw, Recording};
+use osculate_shaders::binding;
 
 use crate::evaluate::{GridChunk, Grids};
 use crate::grid::GridRates;
@@ -120,11 +121,18 @@ impl Drawing {
         if desc.shade == Shade::Difference {
             return Err(EngineError::OneSurface);
         }
+        let mut drawing = Self::empty(surface, desc)?;
+        let _first = drawing.replan()?;
+        Ok(drawing)
+    }
+
+    /// One with pipelines and uniforms, and no draws yet.
+    pub(crate) fn empty(surface: &Surface, desc: &DrawingDesc) -> Result<Self, EngineError> {
         let (engine, look) = (surface.engine(), desc.look((&desc.camera, desc.size)));
         look.check(engine)?;
         look.prepare(engine, &[surface])?;
         let upload = |frame: crate::frame::FrameDesc<'_>| frame.upload(engine.device());
-        let mut drawing = Self {
+        Ok(Self {
             frame: upload(look.frame(surface))?,
             cage_frames: look.cage_frames(surface).map(upload).collect::<Result<_, _>>()?,
             surface: surface.clone(),
@@ -133,9 +141,23 @@ impl Drawing {
             draws: Vec::new(),
             culled_for: (desc.camera, desc.size),
             frozen: false,
-        };
-        let _first = drawing.replan()?;
-        Ok(drawing)
+        })
+    }
+
+    /// Adds the draw of vertices that stay as they are.
+    pub(crate) fn add_chunk(&mut self, grids: &Grids<'_>, chunk: &GridChunk) -> Result<(), EngineError> {
+        let indices = self.surface.engine().device().upload("grid indices", BufferUsage::INDEX, &chunk.indices)?;
+        for output in self.look().outputs() {
+            self.draws.push(grids.draw(chunk, &indices, &self.frame, output)?);
+        }
+        Ok(())
+    }
+
+    /// Adds the draws of the cage, if it is drawn.
+    pub(crate) fn add_cage(&mut self) -> Result<(), EngineError> {
+        let draws = self.look().cage_draws(&self.surface, &self.cage_frames)?;
+        self.draws.extend(draws);
+        Ok(())
     }
 
     /// Moves the eye: writes the uniforms, nothing else, as long as the factors are uniform or the tessellator finds them itself.
@@ -210,6 +232,12 @@ impl Drawing {
     /// The draws of a frame, to be put into a pass on [`DrawingDesc::target`] and depths of [`Target::DEPTH`].
     pub fn draws(&self) -> &[Draw] {
         &self.draws
+    }
+
+    /// The buffers of the surface and the frame's uniforms, by the binding numbers of `shaders/include/bindings.glsl`: for draws of
+    /// one's own in the same view.
+    pub fn bindings(&self) -> Bindings {
+        self.surface.buffers().patches.clone().with(binding::FRAME, &self.frame)
     }
 
     /// The surface.

@@ -129,7 +129,7 @@ impl Shade {
     /// Whose vertices a shade takes: one that shows something of each patch needs vertices of its own.
     pub(crate) fn layout(self) -> Layout {
         match self {
-            Self::Lit | Self::Normals | Self::Zebra | Self::Peer => Layout::Shared,
+            Self::Lit | Self::Normals | Self::Zebra | Self::Peer | Self::Leaks => Layout::Shared,
             _ => Layout::Own,
         }
     }

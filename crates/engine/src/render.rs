@@ -36,10 +36,13 @@ pub enum Shade {
     Textured,
     /// Squares in the plane of texture coordinates, sixteen along a unit; for surfaces with maps.
     Uv,
+    /// Dim from outside, magenta from inside: before a background of that colour every hole of a closed surface stands out.
+    Leaks,
 }
 
 impl Shade {
-    /// All that show one surface whatever it is made of: [`Self::Textured`] and [`Self::Uv`] need maps.
+    /// All that show one surface for its own sake, whatever it is made of: [`Self::Textured`] and [`Self::Uv`] need maps, [`Self::Leaks`] looks for
+    /// defects.
     pub const ALL: &'static [Self] = &[
         Self::Lit,
         Self::Normals,
@@ -69,6 +72,7 @@ impl Shade {
             Self::Difference => "difference",
             Self::Textured => "textured",
             Self::Uv => "uv",
+            Self::Leaks => "leaks",
         }
     }
 
@@ -93,6 +97,7 @@ impl Shade {
             Self::Difference => constant::SHADE_DIFFERENCE,
             Self::Textured => constant::SHADE_TEXTURED,
             Self::Uv => constant::SHADE_UV,
+            Self::Leaks => constant::SHADE_LEAKS,
         }
     }
 }

@@ -200,6 +200,30 @@ shared_structs! {
         pub base_color: [f32; 4],
     }
 
+    /// What the stages of the interface need (`shaders/include/gui_push.glsl`).
+    pub struct GuiPush {
+        /// Width and height of the window in points.
+        pub size: [f32; 2],
+        /// 1 if the target encodes colours itself.
+        pub target_encodes: u32,
+    }
+
+    /// Where a picture is shown (`shaders/include/picture_push.glsl`).
+    pub struct PicturePush {
+        /// The target's texel under the picture's upper left one.
+        pub origin: [u32; 2],
+        /// 1 if the target encodes colours itself.
+        pub target_encodes: u32,
+    }
+
+    /// How marks on the surface look (`shaders/include/mark_push.glsl`).
+    pub struct MarkPush {
+        /// Linear, alpha not multiplied in.
+        pub color: [f32; 4],
+        /// Diameter of dots in pixels; length of normals in cage space.
+        pub size: f32,
+    }
+
     /// A point that `shaders/evaluate/sample.comp` is asked for.
     pub struct SampleRequest {
         /// Global id of the patch.

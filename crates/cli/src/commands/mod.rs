@@ -8,3 +8,5 @@ pub(crate) mod inspect;
 pub(crate) mod render;
 pub(crate) mod repair;
 pub(crate) mod sample;
+#[cfg(feature = "viewer")]
+pub(crate) mod view;

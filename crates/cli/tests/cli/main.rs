@@ -15,4 +15,6 @@ mod render;
 mod repair;
 mod sample;
 mod support;
+#[cfg(feature = "viewer")]
+mod view;
 mod whole;

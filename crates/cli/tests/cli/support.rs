@@ -23,7 +23,7 @@ pub(crate) fn osculate(folder: &Path, arguments: &[&str]) -> Ran {
 }
 
 /// Commands that open a device.
-const ON_A_DEVICE: [&str; 5] = ["bench", "check", "export", "render", "sample"];
+const ON_A_DEVICE: [&str; 6] = ["bench", "check", "export", "render", "sample", "view"];
 
 /// The command with arguments, not yet started. What opens a device does so under validation, which makes it fail if the layers
 /// have anything to say.
