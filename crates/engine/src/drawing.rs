@@ -237,7 +237,7 @@ impl Drawing {
     /// The buffers of the surface and the frame's uniforms, by the binding numbers of `shaders/include/bindings.glsl`: for draws of
     /// one's own in the same view.
     pub fn bindings(&self) -> Bindings {
-        self.surface.buffers().patches.clone().with(binding::FRAME, &self.frame)
+        self.surface.patch_bindings().with(binding::FRAME, &self.frame)
     }
 
     /// The surface.
