@@ -77,5 +77,7 @@
 #define SPEC_NET_SIZE 0
 #define SPEC_SHADE 1
 #define SPEC_GRID_GROUP 2
+#define SPEC_ADAPTIVE 3
+#define SPEC_CULLS 4
 
 #endif

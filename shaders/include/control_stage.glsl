@@ -46,7 +46,7 @@ bool cull_faces_away() {
 
 // Whether nothing of the patch can be seen.
 bool cull_patch() {
-    return frame.cull != 0u && (cull_hull_is_unseen() || ((frame.cull & CULL_BACK) != 0u && cull_faces_away()));
+    return cull_is_on() && (cull_hull_is_unseen() || ((frame.cull & CULL_BACK) != 0u && cull_faces_away()));
 }
 
 // Once per patch: its id and its factors.

@@ -8,6 +8,13 @@
 #define CULLING_GLSL
 #include "frame.glsl"
 
+// 0 where nothing is left out: devices without branches would look at the hull all the same.
+layout(constant_id = SPEC_CULLS) const uint CULLS = 1;
+
+bool cull_is_on() {
+    return CULLS != 0u && frame.cull != 0u;
+}
+
 // From the stage: the points of the hull.
 uint cull_hull_size();
 vec3 cull_hull_point(uint i);

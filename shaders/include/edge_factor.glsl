@@ -4,6 +4,9 @@
 #include "frame.glsl"
 #include "records.glsl"
 
+// 0 where factors are known to be uniform: devices without branches would compute adaptive ones all the same.
+layout(constant_id = SPEC_ADAPTIVE) const uint ADAPTIVE = 1;
+
 float distance_between(vec3 a, vec3 b) {
     precise vec3 d = b - a;
     return sqrt(squared_length(d));
@@ -11,7 +14,7 @@ float distance_between(vec3 a, vec3 b) {
 
 // Factor of an edge: the uniform level, or the length of its control polygon over its distance from the eye.
 float edge_factor(uint edge) {
-    if (frame.factor_mode == FACTORS_UNIFORM) {
+    if (ADAPTIVE == 0u || frame.factor_mode == FACTORS_UNIFORM) {
         return frame.level;
     }
     vec3 c0 = edge_record_point(edge, 0u);

@@ -23,7 +23,7 @@ float cull_overshoot() {
 
 // Whether nothing of the patch can be seen.
 bool cull_patch() {
-    return frame.cull != 0u && cull_hull_size() > 0u && cull_hull_is_unseen();
+    return cull_is_on() && cull_hull_size() > 0u && cull_hull_is_unseen();
 }
 
 #endif

@@ -9,8 +9,11 @@
 layout(location = 0) out vec3 point;
 layout(location = 1) out flat uint patch_id;
 
+// Dividing by a constant is quick.
+layout(constant_id = SPEC_NET_SIZE) const uint NET_SIZE = 16;
+
 void main() {
     uint i = uint(gl_VertexIndex);
-    patch_id = list.first_patch + i / list.net_size;
+    patch_id = list.first_patch + i / NET_SIZE;
     point = load_point(nets[list.net_offset + i]);
 }

@@ -4,7 +4,7 @@ use bytemuck::{Pod, Zeroable};
 use osculate_gpu::{BufferDesc, BufferUsage, CapturePass, Memory, Recording};
 use osculate_shaders::binding;
 
-use crate::draw::{Output, runs};
+use crate::draw::{Division, Output, runs};
 use crate::grid::Layout;
 use crate::pipelines::NO_KERNELS;
 use crate::{EngineError, Evaluator, Surface, Tessellation};
@@ -87,7 +87,8 @@ impl Surface {
         let segments = tessellation.max_segments()?;
         let device = self.engine().device();
         self.require_capture()?;
-        self.engine().prepare(NO_KERNELS, self.pipelines(tessellation.spacing, Output::Capture))?;
+        let division = Division::of(tessellation);
+        self.engine().prepare(NO_KERNELS, self.pipelines(division, Output::Capture))?;
         let frame = self.undrawn_frame(tessellation);
         let bindings = self.patch_bindings().with(binding::FRAME, &frame.upload(device)?);
         let patches = u64::from(self.plan().patches.len() as u32);
@@ -101,7 +102,7 @@ impl Surface {
             let (mut draws, mut room) = (Vec::new(), size);
             while let Some(run) = runs.next_if(|run| u64::from(run.count) * patch_bytes(segments) <= room) {
                 room -= u64::from(run.count) * patch_bytes(segments);
-                draws.push(self.draw(run, &bindings, tessellation, Output::Capture)?);
+                draws.push(self.draw(run, &bindings, division, Output::Capture)?);
             }
             let mut recording = Recording::new();
             recording.capture(CapturePass { name: "capture".to_owned(), buffer: buffer.clone(), offset: 0, draws });

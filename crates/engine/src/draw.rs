@@ -9,7 +9,7 @@ use osculate_shaders::{constant, layout::PatchPush};
 use osculate_subdiv::{PatchForm, PatchKind, PatchList};
 
 use crate::culling::overshoot;
-use crate::{Engine, EngineError, Shade, Spacing, Surface, Target, Tessellation};
+use crate::{Engine, EngineError, Factors, Shade, Spacing, Surface, Target, Tessellation};
 
 /// What becomes of tessellated patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -38,11 +38,29 @@ impl Output {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum PipelineKey {
     /// Patches of a kind.
-    Patches { kind: PatchKind, spacing: Spacing, output: Output, mapped: bool },
+    Patches { kind: PatchKind, division: Division, output: Output, mapped: bool },
     /// Vertices of the compute evaluator.
     Grid { output: Output, mapped: bool },
     /// Lines of the cage overlay: those in sight, or all, behind the surface too.
     Cage { target: Target, hidden: bool },
+}
+
+/// How the tessellator divides patches, as far as shaders are made for it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) struct Division {
+    pub(crate) spacing: Spacing,
+    /// Whether factors differ from edge to edge.
+    pub(crate) adaptive: bool,
+    /// Whether patches of which nothing is seen are left out.
+    pub(crate) culls: bool,
+}
+
+impl Division {
+    /// That of a tessellation in which every patch is drawn.
+    pub(crate) fn of(tessellation: &Tessellation) -> Self {
+        let adaptive = matches!(tessellation.factors, Factors::Adaptive { .. });
+        Self { spacing: tessellation.spacing, adaptive, culls: false }
+    }
 }
 
 /// Shaders of a patch kind: vertex, control and evaluation stage, without the variant of the last.
@@ -68,7 +86,7 @@ fn patch_points(kind: PatchKind) -> u32 {
 impl PipelineKey {
     pub(crate) fn make(self, engine: &Engine) -> Result<GraphicsPipeline, EngineError> {
         match self {
-            Self::Patches { kind, spacing, output, mapped } => make_patches(engine, kind, spacing, output, mapped),
+            Self::Patches { kind, division, output, mapped } => make_patches(engine, kind, division, output, mapped),
             Self::Grid { output, mapped } => make_grid(engine, output, mapped),
             Self::Cage { target, hidden } => make_cage(engine, target, hidden),
         }
@@ -78,7 +96,7 @@ impl PipelineKey {
 fn make_patches(
     engine: &Engine,
     kind: PatchKind,
-    spacing: Spacing,
+    division: Division,
     output: Output,
     mapped: bool,
 ) -> Result<GraphicsPipeline, EngineError> {
@@ -87,10 +105,15 @@ fn make_patches(
     let vertex = engine.shader(&vertex)?;
     let control = engine.shader(&control)?;
     let maps = if mapped { ",mapped" } else { "" };
-    let evaluation = engine.shader(&format!("{evaluation}#{}{capture}{maps}", spacing.variant()))?;
+    let evaluation = engine.shader(&format!("{evaluation}#{}{capture}{maps}", division.spacing.variant()))?;
     let fragment = fragment(engine, output, mapped)?;
-    let name = patches_name(kind, spacing, output) + mapped_name(mapped);
-    let specialization = [(constant::SPEC_NET_SIZE, patch_points(kind)), (constant::SPEC_SHADE, output.shade())];
+    let name = patches_name(kind, division, output) + mapped_name(mapped);
+    let specialization = [
+        (constant::SPEC_NET_SIZE, patch_points(kind)),
+        (constant::SPEC_SHADE, output.shade()),
+        (constant::SPEC_ADAPTIVE, division.adaptive.into()),
+        (constant::SPEC_CULLS, division.culls.into()),
+    ];
     let desc = GraphicsPipelineDesc {
         tessellation: Some(Stages { control: &control, evaluation: &evaluation, patch_points: patch_points(kind) }),
         fragment: fragment.as_ref(),
@@ -102,14 +125,16 @@ fn make_patches(
 }
 
 /// What tools call the pipeline of patches.
-fn patches_name(kind: PatchKind, spacing: Spacing, output: Output) -> String {
+fn patches_name(kind: PatchKind, division: Division, output: Output) -> String {
     let form = kind.form().name();
     let patches = match kind {
         PatchKind::Regular => form.to_owned(),
         PatchKind::Extraordinary { valence, .. } => format!("{form} valence {valence}"),
         PatchKind::Stored { .. } => format!("{form} stored"),
     };
-    format!("{patches}, {}, {}", spacing.variant(), output_name(output))
+    let adaptive = if division.adaptive { " adaptive" } else { "" };
+    let culled = if division.culls { ", culled" } else { "" };
+    format!("{patches}, {}{adaptive}, {}{culled}", division.spacing.variant(), output_name(output))
 }
 
 fn output_name(output: Output) -> String {
@@ -211,9 +236,9 @@ pub(crate) fn runs(lists: &[PatchList], longest: u32) -> impl Iterator<Item = Ru
 
 impl Surface {
     /// The pipelines that its patches need, one for each kind present.
-    pub(crate) fn pipelines(&self, spacing: Spacing, output: Output) -> impl Iterator<Item = PipelineKey> {
+    pub(crate) fn pipelines(&self, division: Division, output: Output) -> impl Iterator<Item = PipelineKey> {
         let mapped = self.is_mapped();
-        self.plan().lists.iter().map(move |list| PipelineKey::Patches { kind: list.kind, spacing, output, mapped })
+        self.plan().lists.iter().map(move |list| PipelineKey::Patches { kind: list.kind, division, output, mapped })
     }
 
     /// The draw of a run of patches; `bindings` are those of the surface and the frame.
@@ -221,7 +246,7 @@ impl Surface {
         &self,
         run: Run<'_>,
         bindings: &Bindings,
-        tessellation: &Tessellation,
+        division: Division,
         output: Output,
     ) -> Result<Draw, EngineError> {
         let list = run.list;
@@ -233,8 +258,7 @@ impl Surface {
             weights: list.weights,
             overshoot: overshoot(list, &self.plan().weights),
         };
-        let (spacing, mapped) = (tessellation.spacing, self.is_mapped());
-        let key = PipelineKey::Patches { kind: list.kind, spacing, output, mapped };
+        let key = PipelineKey::Patches { kind: list.kind, division, output, mapped: self.is_mapped() };
         Ok(Draw {
             pipeline: self.engine().pipeline(key)?,
             bindings: bindings.clone(),
@@ -254,14 +278,17 @@ mod tests {
 
     #[test]
     fn names_tell_pipelines_of_patches_apart() {
+        let plain = |spacing| Division { spacing, adaptive: false, culls: false };
         let target = Target { color: Format::Rgba8Srgb, samples: 4 };
         let stam = PatchKind::Extraordinary { form: PatchForm::Stam, valence: 7 };
         assert_eq!(
-            patches_name(stam, Spacing::Equal, Output::Fill(target, Shade::Zebra)),
+            patches_name(stam, plain(Spacing::Equal), Output::Fill(target, Shade::Zebra)),
             "stam valence 7, equal, fill zebra Rgba8Srgb x4"
         );
         let stored = PatchKind::Stored { form: PatchForm::Gregory };
-        assert_eq!(patches_name(stored, Spacing::Odd, Output::Capture), "gregory stored, odd, capture");
+        assert_eq!(patches_name(stored, plain(Spacing::Odd), Output::Capture), "gregory stored, odd, capture");
+        let culled = Division { adaptive: true, culls: true, ..plain(Spacing::Equal) };
+        assert_eq!(patches_name(stored, culled, Output::Capture), "gregory stored, equal adaptive, capture, culled");
     }
 
     #[test]

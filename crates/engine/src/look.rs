@@ -3,7 +3,7 @@
 use osculate_gpu::{Bindings, Buffer, Draw};
 use osculate_shaders::binding;
 
-use crate::draw::{Output, PipelineKey, runs};
+use crate::draw::{Division, Output, PipelineKey, runs};
 use crate::frame::{CullView, FrameDesc};
 use crate::grid::Layout;
 use crate::pipelines::NO_KERNELS;
@@ -60,7 +60,8 @@ impl Look<'_> {
             let grids = |output| surfaces.iter().map(move |one| PipelineKey::Grid { output, mapped: one.is_mapped() });
             return engine.prepare(kernels, self.outputs().flat_map(grids).chain(cage));
         }
-        let patches = |output| surfaces.iter().flat_map(move |surface| surface.pipelines(tessellation.spacing, output));
+        let patches =
+            |output| surfaces.iter().flat_map(move |surface| surface.pipelines(self.division(surface), output));
         engine.prepare(NO_KERNELS, self.outputs().flat_map(patches).chain(cage))
     }
 
@@ -84,6 +85,11 @@ impl Look<'_> {
         }
     }
 
+    /// How the tessellator divides the patches of a surface.
+    fn division(&self, surface: &Surface) -> Division {
+        Division { culls: self.frame(surface).culling.is_some(), ..Division::of(self.tessellation) }
+    }
+
     fn cull_view(&self) -> Option<CullView<'_>> {
         // Lines cover pixels beside the triangles that they bound.
         let culling = Culling { small: self.culling.small && self.shade != Shade::Wireframe, ..self.culling };
@@ -105,7 +111,8 @@ impl Look<'_> {
         let bindings = surface.patch_bindings().with(binding::FRAME, frame);
         let longest = surface.engine().patches_per_draw(self.tessellation.max_segments()?);
         let runs = || runs(&surface.plan().lists, longest);
-        let draw = |(output, run)| surface.draw(run, &bindings, self.tessellation, output);
+        let division = self.division(surface);
+        let draw = |(output, run)| surface.draw(run, &bindings, division, output);
         self.outputs().flat_map(|output| runs().map(move |run| (output, run))).map(draw).collect()
     }
 
