@@ -66,6 +66,7 @@
 #define SHADE_LEAKS 11
 #define SHADE_TEXTURED 12
 #define SHADE_UV 13
+#define SHADE_FACTORS 14
 
 // Mapping.height_wrap: what lies beyond the map, WRAP_BITS for each axis.
 #define WRAP_CLAMP 0

@@ -2,6 +2,7 @@
 #ifndef MEASURE_GLSL
 #define MEASURE_GLSL
 #include "frame.glsl"
+#include "palette.glsl"
 #include "forms/form.glsl"
 #ifdef MAPPED
 #include "attributes.glsl"
@@ -25,7 +26,8 @@ vec2 shade_off_corner(vec2 uv, vec2 segments) {
     return corner_of(uv) != 4u ? clamp(uv, inside, 1.0 - inside) : uv;
 }
 
-// Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Textured: texture coordinates. Others: what patches are outlined by.
+// Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Textured: texture coordinates. Factors: the same as others,
+// with the segments across the patch. Others: what patches are outlined by.
 vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
     if (SHADE == SHADE_CURVATURE || SHADE == SHADE_GAUSSIAN) {
         return shade_curvature(id, shade_off_corner(uv, segments));
@@ -34,6 +36,9 @@ vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
         vec4 clip = clip_position(p.position);
         vec2 step = 1.0 / max(segments, vec2(1.0));
         return vec2(shade_triangle_width(shade_pixels(clip, p.du * step.x), shade_pixels(clip, p.dv * step.y)), 0.0);
+    }
+    if (SHADE == SHADE_FACTORS) {
+        return shade_outline(uv) + vec2(shade_pack_factor(shade_segments(segments)), 0.0);
     }
 #ifdef MAPPED
     if (SHADE == SHADE_TEXTURED || SHADE == SHADE_UV) {

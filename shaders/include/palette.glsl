@@ -88,4 +88,22 @@ vec3 shade_difference_color(float part) {
     return mix(shade_srgb(COLORS[i]), shade_srgb(COLORS[i + 1u]), x - float(i));
 }
 
+// Steps between a number of segments and its double.
+const float FACTOR_STEPS = 16.0;
+
+// Segments across a patch as an even number, to be added to a coordinate from 0 to 1.
+float shade_pack_factor(float segments) {
+    return 2.0 * round(FACTOR_STEPS * log2(max(segments, 1.0)));
+}
+
+// That even number, without the coordinate.
+float shade_packed_factor(float sum) {
+    return 2.0 * floor(0.5 * sum + 0.25);
+}
+
+// Segments across a patch, 1 to 64, by their logarithm: in the colours of parts of a range.
+vec3 shade_factor_color(float packed) {
+    return shade_difference_color(packed / (12.0 * FACTOR_STEPS));
+}
+
 #endif

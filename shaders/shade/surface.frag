@@ -12,7 +12,7 @@
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
-// By shade: curvature, texture coordinates, or (u,v) in the patch (shade_measure).
+// By shade: curvature, texture coordinates, segments, or (u,v) in the patch (shade_measure).
 layout(location = 2) in vec2 measure;
 layout(location = 3) in flat uint patch_id;
 
@@ -48,7 +48,7 @@ vec3 shade_peer() {
     return vec3(0.80, 0.75, 0.70) * (0.15 + 0.85 * abs(dot(n, normalize(vec3(0.3, 0.4, 1.0)))));
 }
 
-// Thin dark lines where patches meet, a pixel wide on either side; none where patches are a few pixels large.
+// Thin dark lines where patches meet, a pixel wide on either side; none where patches are a few pixels large. `uv` is 0 or 1 there.
 vec3 shade_outlined(vec3 rgb, vec2 uv) {
     vec2 pixel = fwidth(uv);
     vec2 line = 1.0 - smoothstep(0.35 * pixel, 1.35 * pixel, min(uv, 1.0 - uv));
@@ -74,6 +74,12 @@ vec3 shade_reflection(vec3 n, vec3 v) {
     return lacquer + vec3(0.96, 0.93, 0.86) * (light * fresnel);
 }
 
+// The factor, outlined by what is left of the sum.
+vec3 shade_factors(vec3 n, vec3 v) {
+    float factor = shade_packed_factor(measure.x);
+    return shade_outlined(shade_flat(shade_factor_color(factor), n, v), measure - vec2(factor, 0.0));
+}
+
 void main() {
     vec3 v = normalize(shade_view(frame.eye.xyz - position));
     vec3 n = shade_normal(v);
@@ -89,6 +95,7 @@ void main() {
     case SHADE_CURVATURE: rgb = shade_flat(shade_mean_color(-measure.x * frame.radius), n, v); break;
     case SHADE_GAUSSIAN: rgb = shade_flat(shade_gaussian_color(measure.y * frame.radius * frame.radius), n, v); break;
     case SHADE_DIFFERENCE: rgb = shade_flat(shade_difference_color(measure.x), n, v); break;
+    case SHADE_FACTORS: rgb = shade_factors(n, v); break;
     case SHADE_PEER: rgb = shade_peer(); break;
 #ifdef MAPPED
     case SHADE_TEXTURED: rgb = shade_lit(shade_texture(measure), n, v); break;

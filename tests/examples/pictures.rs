@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use glam::DVec3;
-use osculate::{Cage, Camera, Device, DeviceDesc, Engine, RenderDesc, Scheme, Shade, Tessellation};
+use osculate::{Cage, Camera, Device, DeviceDesc, Engine, Factors, RenderDesc, Scheme, Shade, Tessellation};
 use osculate_compare::Picture;
 use osculate_tests::{legend, moving, picture, zoo};
 
@@ -36,6 +36,10 @@ fn show(desc: &mut RenderDesc, shade: Shade) {
     desc.shade = shade;
     match shade {
         Shade::Wireframe => desc.tessellation = Tessellation::uniform(1.0),
+        Shade::Factors => {
+            let factors = Factors::Adaptive { pixels: 2.0, camera: desc.camera, height: desc.size[1] };
+            desc.tessellation = Tessellation { factors, ..desc.tessellation };
+        }
         Shade::Peer => (desc.samples, desc.background) = (1, [0.1, 0.1, 0.1, 1.0]),
         _ => {}
     }

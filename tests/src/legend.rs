@@ -18,6 +18,7 @@ pub struct Swatch {
     cage: Cage,
     rule: BoundaryRule,
     place: Place,
+    tessellation: Tessellation,
 }
 
 /// Where on its cage a swatch is.
@@ -32,7 +33,8 @@ enum Place {
 pub fn swatches() -> Vec<Swatch> {
     let swatch = |name: &str, shade: Shade, cage: Cage, boundary, edges| {
         let name = format!("swatch-{}-{name}", shade.name());
-        Swatch { name, shade, cage, rule: BoundaryRule::EdgeAndCorner, place: Place::Patch { boundary, edges } }
+        let (rule, place) = (BoundaryRule::EdgeAndCorner, Place::Patch { boundary, edges });
+        Swatch { name, shade, cage, rule, place, tessellation: Tessellation::default() }
     };
     let star = |edges: u32| match edges {
         2 => zoo::pillow(),
@@ -66,6 +68,11 @@ pub fn swatches() -> Vec<Swatch> {
         cage: zoo::paraboloid(curvatures),
         rule: BoundaryRule::EdgeAndCorner,
         place: Place::Top,
+        tessellation: Tessellation::default(),
+    }));
+    swatches.extend([1, 2, 4, 8, 16, 32, 64].map(|level| Swatch {
+        tessellation: Tessellation::uniform(level as f32),
+        ..swatch(&level.to_string(), Shade::Factors, zoo::grid(3, 3), false, 4)
     }));
     swatches
 }
@@ -96,8 +103,9 @@ impl Swatch {
     pub fn draw(&self, engine: &Engine) -> Picture {
         let desc = SurfaceDesc { boundary: Some(self.rule), ..SurfaceDesc::default() };
         let surface = Surface::new(engine, &self.cage, &desc).unwrap_or_else(|error| panic!("{}: {error}", self.name));
-        let desc =
-            RenderDesc { shade: self.shade, camera: self.above(&surface), ..RenderDesc::fit(&self.cage, [32, 20]) };
+        let camera = self.above(&surface);
+        let fit = RenderDesc::fit(&self.cage, [32, 20]);
+        let desc = RenderDesc { shade: self.shade, tessellation: self.tessellation, camera, ..fit };
         draw_surfaces(engine, &[&surface], &desc)
     }
 

@@ -74,6 +74,12 @@ impl Failure {
         Self::new(Kind::Device, message)
     }
 
+    /// Message and hint in a line.
+    pub(crate) fn sentence(&self) -> String {
+        let hint = self.hint.as_ref().map(|hint| format!("; {hint}"));
+        format!("{}{}", self.message, hint.unwrap_or_default())
+    }
+
     /// A file that is read cannot be opened or does not hold what it should: exit code 3.
     pub(crate) fn unreadable(message: impl Display) -> Self {
         Self::input(message).with_hint("check the name, which counts from the current folder, and what the file holds")

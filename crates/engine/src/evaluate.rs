@@ -45,6 +45,8 @@ pub(crate) enum Measured {
     Curvature,
     /// Width of the triangles in pixels.
     Width,
+    /// Segments across the patch.
+    Segments,
     /// Texture coordinates.
     Texture,
 }
@@ -56,6 +58,7 @@ impl Measured {
             None => Self::Parameters,
             Some(Shade::Curvature | Shade::Gaussian) => Self::Curvature,
             Some(Shade::Wireframe) => Self::Width,
+            Some(Shade::Factors) => Self::Segments,
             Some(Shade::Textured | Shade::Uv) => Self::Texture,
             Some(_) => Self::Outline,
         }
@@ -68,6 +71,7 @@ impl Measured {
             Self::Outline => constant::SHADE_LIT,
             Self::Curvature => constant::SHADE_CURVATURE,
             Self::Width => constant::SHADE_WIREFRAME,
+            Self::Segments => constant::SHADE_FACTORS,
             Self::Texture => constant::SHADE_UV,
         }
     }
@@ -79,6 +83,7 @@ impl Measured {
             Self::Outline => "outline",
             Self::Curvature => "curvature",
             Self::Width => "width",
+            Self::Segments => "segments",
             Self::Texture => "texture",
         }
     }

@@ -28,6 +28,8 @@ pub enum Shade {
     Curvature,
     /// Gaussian curvature.
     Gaussian,
+    /// How finely patches are divided: segments across them.
+    Factors,
     /// The two-sided headlight of comparisons with other renderers, without sRGB encoding.
     Peer,
     /// The distance to another surface of the same cage: [`crate::render_difference`] draws it.
@@ -53,6 +55,7 @@ impl Shade {
         Self::Reflection,
         Self::Curvature,
         Self::Gaussian,
+        Self::Factors,
         Self::Peer,
     ];
 
@@ -68,6 +71,7 @@ impl Shade {
             Self::Reflection => "reflection",
             Self::Curvature => "curvature",
             Self::Gaussian => "gaussian",
+            Self::Factors => "factors",
             Self::Peer => "peer",
             Self::Difference => "difference",
             Self::Textured => "textured",
@@ -77,7 +81,7 @@ impl Shade {
     }
 
     /// Whether it shows texture coordinates.
-    pub(crate) fn is_mapped(self) -> bool {
+    pub fn is_mapped(self) -> bool {
         matches!(self, Self::Textured | Self::Uv)
     }
 
@@ -93,6 +97,7 @@ impl Shade {
             Self::Reflection => constant::SHADE_REFLECTION,
             Self::Curvature => constant::SHADE_CURVATURE,
             Self::Gaussian => constant::SHADE_GAUSSIAN,
+            Self::Factors => constant::SHADE_FACTORS,
             Self::Peer => constant::SHADE_PEER,
             Self::Difference => constant::SHADE_DIFFERENCE,
             Self::Textured => constant::SHADE_TEXTURED,

@@ -5,6 +5,7 @@ use crate::choice::Choice;
 use crate::dialog::FileDialog;
 use crate::keys::Action;
 use crate::state::State;
+use osculate::Shade;
 
 /// What the session has to do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,13 +93,23 @@ impl State {
             Action::Spacing => look.spacing = look.spacing.step(1),
             Action::Culling => look.culling = !look.culling,
             Action::Wireframe => look.wireframe = !look.wireframe && self.device.wireframe,
-            Action::Shade => (look.shade, look.wireframe) = (look.shade.step(1), false),
-            Action::PreviousShade => (look.shade, look.wireframe) = (look.shade.step(-1), false),
+            Action::Shade => self.step_shade(1),
+            Action::PreviousShade => self.step_shade(-1),
             Action::Cage => look.cage = !look.cage,
             Action::Points => look.points = !look.points,
             Action::Normals => look.normals = !look.normals,
             Action::Leaks => look.leaks = !look.leaks,
             _ => {}
+        }
+    }
+
+    /// Goes on to another shade, past those that the model has no maps for.
+    fn step_shade(&mut self, steps: isize) {
+        let steps_on = |shade: &Shade| Some(shade.step(steps));
+        let mut shades =
+            std::iter::successors(Some(self.settings.look.shade), steps_on).skip(1).take(<Shade as Choice>::ALL.len());
+        if let Some(shade) = shades.find(|&shade| self.can_show(shade)) {
+            (self.settings.look.shade, self.settings.look.wireframe) = (shade, false);
         }
     }
 }

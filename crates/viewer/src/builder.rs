@@ -16,6 +16,7 @@ use osculate::{
 use osculate_cage::{Cage, ReadDesc, ReadError, ReadObserver, ReadProgress, ReadStage};
 
 use crate::census::Census;
+use crate::dress::Dress;
 use crate::picking::{Pick, Picked};
 use crate::scene::{Scene, Side, Sight, Wanted};
 
@@ -47,11 +48,15 @@ pub(crate) struct Builder {
 
 impl Builder {
     /// Starts the thread. `tell` is called from there.
-    pub(crate) fn start(read: ReadDesc, tell: impl Fn(News) + Send + Sync + 'static) -> std::io::Result<Self> {
+    pub(crate) fn start(
+        (read, dress): (ReadDesc, Option<Dress>),
+        tell: impl Fn(News) + Send + Sync + 'static,
+    ) -> std::io::Result<Self> {
         let (tasks, received) = channel();
         let newest = Arc::new(AtomicU64::new(0));
         let mut workshop = Workshop {
             read,
+            dress,
             tell: Arc::new(tell),
             newest: Arc::clone(&newest),
             cage: None,
@@ -100,16 +105,18 @@ struct Compiled {
     target: Target,
     shade: Shade,
     cage: bool,
+    mapped: bool,
     shaders: u32,
 }
 
 struct Workshop {
     read: ReadDesc,
+    dress: Option<Dress>,
     tell: Arc<dyn Fn(News) + Send + Sync>,
     newest: Arc<AtomicU64>,
     cage: Option<Model>,
-    /// Surfaces of that cage.
-    surfaces: Vec<Surface>,
+    /// Surfaces of that cage, and the shades that they are mapped for.
+    surfaces: Vec<(Option<Shade>, Surface)>,
     warm: HashSet<Compiled>,
 }
 
@@ -157,11 +164,11 @@ impl Workshop {
         let desc = wanted.drawing(sight, cage.bounds());
         let mut scene = Scene { wanted: wanted.clone(), cage: Arc::clone(&cage), sides: Vec::new(), difference: None };
         for &scheme in &wanted.schemes {
-            let surface = self.surface(engine, &cage, scheme, points)?;
+            let surface = self.surface(engine, (&cage, wanted), scheme, points)?;
             self.progress(&format!("preparing {scheme}"));
             let drawing = match wanted.against {
                 Some(against) if scene.difference.is_none() => {
-                    let against = self.surface(engine, &cage, against, points)?;
+                    let against = self.surface(engine, (&cage, wanted), against, points)?;
                     let (drawing, difference) = Drawing::of_difference([&surface, &against], &desc, None)?;
                     scene.difference = Some(difference);
                     drawing
@@ -216,22 +223,29 @@ impl Workshop {
     fn surface(
         &mut self,
         engine: &Engine,
-        cage: &Cage,
+        (cage, wanted): (&Cage, &Wanted),
         scheme: Scheme,
         points: Option<&[DVec3]>,
     ) -> Result<Surface, Stop> {
-        let at = match self.surfaces.iter().position(|surface| surface.scheme() == scheme) {
+        let mapped_for = Some(wanted.shade).filter(|shade| shade.is_mapped());
+        let fits = |(mapped, surface): &(Option<Shade>, Surface)| (*mapped, surface.scheme()) == (mapped_for, scheme);
+        let at = match self.surfaces.iter().position(fits) {
             Some(at) => at,
             None => {
                 self.progress(&format!("planning {scheme}"));
-                self.surfaces.push(Surface::new(engine, cage, &SurfaceDesc { scheme, boundary: None })?);
+                let mut surface = Surface::new(engine, cage, &SurfaceDesc { scheme, boundary: None })?;
+                if let Some(dress) = &self.dress {
+                    surface = dress.apply(surface, cage, &wanted.file, wanted.shade).map_err(Stop::Failed)?;
+                }
+                self.surfaces.push((mapped_for, surface));
                 self.surfaces.len() - 1
             }
         };
+        let surface = &mut self.surfaces[at].1;
         if let Some(points) = points {
-            self.surfaces[at].set_points(points)?;
+            surface.set_points(points)?;
         }
-        Ok(self.surfaces[at].clone())
+        Ok(surface.clone())
     }
 
     /// Draws once where nobody sees it: software drivers compile at the first draw.
@@ -246,6 +260,7 @@ impl Workshop {
             target: desc.target,
             shade: desc.shade,
             cage: desc.cage,
+            mapped: drawing.surface().is_mapped(),
             shaders: wanted.shaders,
         };
         if self.warm.contains(&compiled) {

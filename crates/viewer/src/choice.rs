@@ -55,6 +55,9 @@ impl Choice for Shade {
         Self::Reflection,
         Self::Curvature,
         Self::Gaussian,
+        Self::Factors,
+        Self::Textured,
+        Self::Uv,
         Self::Difference,
     ];
 
@@ -72,6 +75,9 @@ impl Choice for Shade {
             Self::Reflection => "light tubes mirrored in lacquer",
             Self::Curvature => "mean: red bulges, blue is hollow",
             Self::Gaussian => "Gaussian: orange domes, violet saddles",
+            Self::Factors => "segments across patches, darker is finer",
+            Self::Textured => "the colours of the material",
+            Self::Uv => "texture coordinates as squares",
             Self::Difference => "distance to the other scheme, darker is further",
             _ => "",
         }

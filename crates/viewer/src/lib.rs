@@ -10,6 +10,7 @@ mod camera;
 mod census;
 mod choice;
 mod dialog;
+mod dress;
 mod error;
 mod hud;
 mod input;
@@ -43,6 +44,7 @@ use crate::settings::Settings;
 use crate::state::State;
 
 pub use camera::{CameraPose, CameraPoseError};
+pub use dress::Dress;
 pub use error::ViewerError;
 
 /// What the window is opened with.
@@ -52,6 +54,8 @@ pub struct ViewerDesc {
     pub files: Vec<PathBuf>,
     /// How they are read.
     pub read: ReadDesc,
+    /// Gives surfaces displacement and colours; `None` leaves them as they are, and the shades that need maps out of reach.
+    pub dress: Option<Dress>,
     /// The device's number or a part of its name; `None` takes the best.
     pub device: Option<String>,
     /// Switches validation on; any message is an error in the end.
@@ -79,6 +83,7 @@ impl Default for ViewerDesc {
         Self {
             files: Vec::new(),
             read: ReadDesc::default(),
+            dress: None,
             device: None,
             validation: false,
             camera: None,
@@ -122,7 +127,8 @@ pub fn run(desc: ViewerDesc) -> Result<(), ViewerError> {
         EventLoop::with_user_event().build().map_err(|error| ViewerError::NoDisplay { reason: error.to_string() })?;
     let mut settings = desc.settings.as_deref().map(Settings::load).unwrap_or_default();
     settings.look.take(&desc.look);
-    let state = State::new(settings, desc.files.clone(), desc.camera);
+    let mut state = State::new(settings, desc.files.clone(), desc.camera);
+    state.dress = desc.dress.clone();
     let file = desc.settings.clone();
     let mut app = App::new(desc, event_loop.create_proxy(), state);
     let ended = event_loop.run_app(&mut app);

@@ -137,6 +137,8 @@ impl Settings {
         look.level = if look.level.is_nan() { 8.0 } else { look.level.clamp(1.0, 64.0) };
         look.pixels = if look.pixels.is_nan() { 8.0 } else { look.pixels.clamp(1.0, 100.0) };
         look.samples = if [1, 2, 4, 8].contains(&look.samples) { look.samples } else { 4 };
+        // The next model may have no maps.
+        look.shade = if look.shade.is_mapped() { Shade::Lit } else { look.shade };
         screen.limit = screen.limit.min(1000);
         screen.size = screen.size.map(|side| side.clamp(320, 16384));
         self
@@ -214,10 +216,14 @@ mod tests {
             std::fs::write(&file, text).unwrap();
             assert_eq!(Settings::load(&file), Settings::default(), "{text}");
         }
-        std::fs::write(&file, r#"{"look": {"level": 1e9, "samples": 3}, "screen": {"size": [0, 0]}, "more": 1}"#)
-            .unwrap();
+        std::fs::write(
+            &file,
+            r#"{"look": {"level": 1e9, "samples": 3, "shade": "uv"}, "screen": {"size": [0, 0]}, "more": 1}"#,
+        )
+        .unwrap();
         let settings = Settings::load(&file);
         assert_eq!((settings.look.level, settings.look.samples, settings.screen.size), (64.0, 4, [320, 320]));
+        assert_eq!(settings.look.shade, Shade::Lit);
     }
 
     #[test]

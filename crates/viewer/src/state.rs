@@ -5,12 +5,13 @@ use std::sync::Arc;
 
 use glam::{DVec2, DVec3};
 use osculate::gpu::PresentMode;
-use osculate::{Culling, Difference, Scheme, Target};
+use osculate::{Culling, Difference, Scheme, Shade, Target};
 use osculate_cage::{Bounds, Cage};
 
 use crate::camera::{CameraPose, Orbit};
 use crate::census::Census;
 use crate::dialog::FileDialog;
+use crate::dress::Dress;
 use crate::keys::Action;
 use crate::models::{Models, title};
 use crate::pace::Frames;
@@ -37,6 +38,8 @@ pub(crate) struct State {
     pub(crate) playback: Playback,
     pub(crate) sculpting: Sculpting,
     pub(crate) picked: Option<Picked>,
+    /// Where maps come from.
+    pub(crate) dress: Option<Dress>,
     /// Shaders were read so often.
     pub(crate) shaders: u32,
     pub(crate) status: Status,
@@ -139,6 +142,7 @@ impl State {
             playback: Playback::default(),
             sculpting: Sculpting::default(),
             picked: None,
+            dress: None,
             shaders: 0,
             status: Status::default(),
             help: false,
@@ -148,6 +152,11 @@ impl State {
             model: None,
             figures: Figures::default(),
         }
+    }
+
+    /// Whether a shade has something to show on the model; without a model all have.
+    pub(crate) fn can_show(&self, shade: Shade) -> bool {
+        self.model.as_ref().is_none_or(|model| Dress::suits(self.dress.as_ref(), &model.cage, shade))
     }
 
     /// The same on a device that is not open yet.

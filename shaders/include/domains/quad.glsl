@@ -44,6 +44,11 @@ vec4 side_nearness(vec2 uv) {
     return r;
 }
 
+// Segments across, of both inner factors.
+float shade_segments(vec2 inner) {
+    return max(inner.x, inner.y);
+}
+
 // Coordinates that are 0 or 1 on the sides.
 vec2 shade_outline(vec2 uv) {
     return uv;

@@ -45,6 +45,11 @@ vec4 side_nearness(vec2 uv) {
     return vec4(r, 0.0);
 }
 
+// Segments across, of the inner factors: there is one.
+float shade_segments(vec2 inner) {
+    return inner.x;
+}
+
 // Coordinates that are 0 on the sides.
 vec2 shade_outline(vec2 uv) {
     return vec2(min(min(uv.x, uv.y), first_coordinate(uv)));

@@ -18,6 +18,7 @@ uint side_of(vec2 uv);
 uint corner_of(vec2 uv);
 float edge_parameter(uint side, uint flip, vec2 uv);
 vec2 shade_outline(vec2 uv);
+float shade_segments(vec2 inner);
 
 // From the stage: control point i of the patch at hand, in the form's own basis.
 vec3 control(uint i);

@@ -254,7 +254,7 @@ fn the_legend_is_true() {
 #[test]
 fn colours_of_the_legend_are_distinct() {
     let gpu = gpu();
-    for shade in [Shade::Patches, Shade::Valence, Shade::Curvature, Shade::Gaussian] {
+    for shade in [Shade::Patches, Shade::Valence, Shade::Curvature, Shade::Gaussian, Shade::Factors] {
         let swatches: Vec<_> = legend::swatches().into_iter().filter(|swatch| swatch.shade == shade).collect();
         let colours: Vec<_> = swatches.iter().map(|swatch| swatch.draw(&gpu).pixels().next().unwrap()).collect();
         for (i, a) in colours.iter().enumerate() {

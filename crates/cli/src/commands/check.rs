@@ -133,7 +133,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
         for &scheme in &job.schemes {
             let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
             let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
-            let surface = maps.apply(surface, &input.cage, &job.input)?;
+            let surface = maps.apply(surface, &input.cage, &job.input.file)?;
             for case in &cases {
                 let report = check(&surface, &case.tessellation)?;
                 watertight &= report.is_watertight();

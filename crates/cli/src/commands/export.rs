@@ -109,7 +109,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary) };
     with_engine(global, |engine: &Engine| {
         let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
-        let surface = maps.apply(surface, &input.cage, &job.input)?;
+        let surface = maps.apply(surface, &input.cage, &job.input.file)?;
         let progress = Progress::new(global.quiet, surface.plan().patches.len() as u64, "drawing");
         let drawing = Drawing { cage: &input.cage, surface: &surface, tessellation, progress };
         let path = &job.output.path;

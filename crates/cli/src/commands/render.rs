@@ -129,6 +129,8 @@ enum ShadeArg {
     Curvature,
     /// Gaussian curvature: white is flat or bent one way only, orange is a dome or a bowl, violet a saddle.
     Gaussian,
+    /// How finely patches are divided: segments across them, from off-white for 1 over orange for 8 to dark violet for 64.
+    Factors,
     /// A two-sided headlight without sRGB encoding, for comparisons with other renderers.
     Peer,
     /// The distance to another scheme at the same places: off-white is none, dark violet the largest, which is printed.
@@ -151,6 +153,7 @@ impl From<ShadeArg> for Shade {
             ShadeArg::Reflection => Self::Reflection,
             ShadeArg::Curvature => Self::Curvature,
             ShadeArg::Gaussian => Self::Gaussian,
+            ShadeArg::Factors => Self::Factors,
             ShadeArg::Peer => Self::Peer,
             ShadeArg::Textured => Self::Textured,
             ShadeArg::Uv => Self::Uv,
@@ -247,12 +250,7 @@ impl LookArgs {
 impl Job {
     /// The pictures that the surface is mapped with.
     fn maps(&self, cage: &Cage) -> Result<Maps, Failure> {
-        let maps = self.displace.load(cage)?;
-        match self.look.shade {
-            ShadeArg::Textured => maps.colored(self.texture.as_deref(), cage),
-            ShadeArg::Uv => Ok(maps.with_uv()),
-            _ => Ok(maps),
-        }
+        self.displace.load(cage)?.for_shade(self.look.shade.into(), self.texture.as_deref(), cage)
     }
 }
 

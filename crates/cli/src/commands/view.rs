@@ -3,11 +3,11 @@
 use crate::args::GlobalArgs;
 use crate::cache;
 use crate::failure::{Failure, Verdict};
-use crate::options::{DrawEvaluator, Level, Pixels, ReadArgs, SchemeName, Size, SpacingArg};
+use crate::options::{DisplaceArgs, DrawEvaluator, Level, Pixels, ReadArgs, SchemeName, Size, SpacingArg};
 use clap::{Args, ValueEnum};
 use etcetera::{BaseStrategy, choose_base_strategy};
 use osculate::{EngineError, Evaluator, Shade, Spacing};
-use osculate_viewer::{CameraPose, LookDesc, ViewerDesc, ViewerError};
+use osculate_viewer::{CameraPose, Dress, LookDesc, ViewerDesc, ViewerError};
 use std::path::PathBuf;
 
 /// Look at surfaces in a window.
@@ -71,6 +71,13 @@ pub(crate) struct ViewArgs {
     #[arg(long, value_name = "N", hide = true)]
     lose_device: Option<u64>,
 
+    /// The picture that the shade textured shows, in place of the model's own.
+    #[arg(long, value_name = "PICTURE")]
+    texture: Option<PathBuf>,
+
+    #[command(flatten)]
+    displace: DisplaceArgs,
+
     #[command(flatten)]
     read: ReadArgs,
 }
@@ -87,6 +94,9 @@ enum ViewShade {
     Reflection,
     Curvature,
     Gaussian,
+    Factors,
+    Textured,
+    Uv,
     Difference,
     Leaks,
 }
@@ -103,6 +113,9 @@ impl From<ViewShade> for Shade {
             ViewShade::Reflection => Self::Reflection,
             ViewShade::Curvature => Self::Curvature,
             ViewShade::Gaussian => Self::Gaussian,
+            ViewShade::Factors => Self::Factors,
+            ViewShade::Textured => Self::Textured,
+            ViewShade::Uv => Self::Uv,
             ViewShade::Difference => Self::Difference,
             ViewShade::Leaks => Self::Leaks,
         }
@@ -136,6 +149,7 @@ impl ViewArgs {
                 shade: self.shade.map(Shade::from),
                 cage: self.cage.then_some(true),
             },
+            dress: Some(dress(self.displace, self.texture)),
             files: self.files,
             read: self.read.desc()?,
             device: global.device.clone(),
@@ -149,6 +163,14 @@ impl ViewArgs {
             lose_device: self.lose_device,
         })
     }
+}
+
+/// What gives surfaces their maps.
+fn dress(displace: DisplaceArgs, texture: Option<PathBuf>) -> Dress {
+    Dress::new(texture.is_some(), move |surface, cage, file, shade| {
+        let maps = displace.load(cage).and_then(|maps| maps.for_shade(shade, texture.as_deref(), cage));
+        maps.and_then(|maps| maps.apply(surface, cage, file)).map_err(|failure| failure.sentence())
+    })
 }
 
 /// The file that settings are kept in.

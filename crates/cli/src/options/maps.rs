@@ -1,10 +1,10 @@
 //! Displacement and colours: pictures that the surface is mapped with.
 
 use crate::failure::Failure;
-use crate::input::InputArgs;
 use clap::Args;
 use osculate::{
-    Cage, ColorMap, Coloring, Displacement, EngineError, HeightMap, MapError, MapPlacement, MapsDesc, Surface, UvOrigin,
+    Cage, ColorMap, Coloring, Displacement, EngineError, HeightMap, MapError, MapPlacement, MapsDesc, Shade, Surface,
+    UvOrigin,
 };
 use osculate_cage::{Appearance, ImageSource, Material, Texture};
 use std::path::{Path, PathBuf};
@@ -85,8 +85,17 @@ impl DisplaceArgs {
 }
 
 impl Maps {
+    /// With what a shade needs: colours those of a picture, if there is one.
+    pub(crate) fn for_shade(self, shade: Shade, texture: Option<&Path>, cage: &Cage) -> Result<Self, Failure> {
+        match shade {
+            Shade::Textured => self.colored(texture, cage),
+            Shade::Uv => Ok(Self { plain: true, ..self }),
+            _ => Ok(self),
+        }
+    }
+
     /// With colours: those of a picture, or of the cage's own materials.
-    pub(crate) fn colored(self, texture: Option<&Path>, cage: &Cage) -> Result<Self, Failure> {
+    fn colored(self, texture: Option<&Path>, cage: &Cage) -> Result<Self, Failure> {
         let colors = match (texture, cage.appearance()) {
             (Some(file), _) => {
                 let map = Some(ColorMap::read(file).map_err(unreadable)?);
@@ -102,13 +111,8 @@ impl Maps {
         Ok(Self { colors: Some(colors), ..self })
     }
 
-    /// With texture coordinates in any case.
-    pub(crate) fn with_uv(self) -> Self {
-        Self { plain: true, ..self }
-    }
-
     /// The surface with all this.
-    pub(crate) fn apply(&self, surface: Surface, cage: &Cage, input: &InputArgs) -> Result<Surface, Failure> {
+    pub(crate) fn apply(&self, surface: Surface, cage: &Cage, file: &Path) -> Result<Surface, Failure> {
         if self.heights.is_none() && self.colors.is_none() && !self.plain {
             return Ok(surface);
         }
@@ -123,9 +127,9 @@ impl Maps {
             factor: colors.factor,
             placement: colors.placement,
         });
-        let desc = MapsDesc { origin: origin(&input.file), displacement, coloring };
+        let desc = MapsDesc { origin: origin(file), displacement, coloring };
         surface.with_maps(cage, &desc).map_err(|error| match error {
-            EngineError::NoUv => Failure::input(format_args!("{}: {error}", input.file.display())),
+            EngineError::NoUv => Failure::input(format_args!("{}: {error}", file.display())),
             other => other.into(),
         })
     }

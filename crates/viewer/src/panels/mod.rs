@@ -81,9 +81,17 @@ fn line(ui: &mut Ui, about: &str, add: impl FnOnce(&mut Ui)) {
 
 /// A list to choose from, each with a line about it.
 fn choose<T: Choice>(ui: &mut Ui, id: &str, chosen: &mut T) {
+    choose_among(ui, id, chosen, |_| true);
+}
+
+/// A list in which only some can be chosen.
+fn choose_among<T: Choice>(ui: &mut Ui, id: &str, chosen: &mut T, can: impl Fn(T) -> bool) {
     ComboBox::from_id_salt(id).selected_text(chosen.label()).show_ui(ui, |ui| {
         for &one in T::ALL {
-            ui.selectable_value(chosen, one, one.label()).on_hover_text(one.about());
+            let entry = ui.add_enabled(can(one), egui::Button::selectable(*chosen == one, one.label()));
+            if entry.on_hover_text(one.about()).on_disabled_hover_text("this model has no maps for it").clicked() {
+                *chosen = one;
+            }
         }
     });
 }

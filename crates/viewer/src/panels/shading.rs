@@ -2,14 +2,16 @@
 
 use egui::{RichText, Ui};
 
-use super::{choose, line};
+use super::{choose_among, line};
 use crate::choice::Choice;
 use crate::state::State;
 use crate::theme;
 
 pub(super) fn show(ui: &mut Ui, state: &mut State) {
+    let mut shade = state.settings.look.shade;
+    line(ui, "shade", |ui| choose_among(ui, "shade", &mut shade, |shade| state.can_show(shade)));
     let (look, device) = (&mut state.settings.look, &state.device);
-    line(ui, "shade", |ui| choose(ui, "shade", &mut look.shade));
+    look.shade = shade;
     ui.label(RichText::new(look.shade.about()).small().color(theme::FAINT));
     egui::Grid::new("overlays").num_columns(2).spacing([18.0, 5.0]).show(ui, |ui| {
         ui.checkbox(&mut look.cage, "cage edges").on_hover_text("H; drag a vertex to move it");

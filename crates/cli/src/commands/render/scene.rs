@@ -78,7 +78,7 @@ impl Job {
         let surface = |scheme| {
             let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
             let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))?;
-            maps.apply(surface, &input.cage, &self.input)
+            maps.apply(surface, &input.cage, &self.input.file)
         };
         let size = 2.0 * input.cage.bounds().half_diagonal();
         let against = self.against.map(surface).transpose()?;
