@@ -284,7 +284,11 @@ impl Session {
         let file = scene.wanted.file.display();
         let schemes: Vec<&str> = scene.sides.iter().map(|side| side.scheme.name()).collect();
         let wanted = &scene.wanted;
-        tracing::info!("{file}: {}, {}, level {}", schemes.join(" and "), wanted.shade.name(), wanted.level);
+        let (schemes, shade) = (schemes.join(" and "), wanted.shade.name());
+        match wanted.adaptive {
+            Some(pixels) => tracing::info!("{file}: {schemes}, {shade}, segments of {pixels} pixels"),
+            None => tracing::info!("{file}: {schemes}, {shade}, level {}", wanted.level),
+        }
         if is_new {
             self.window.set_title(&format!("{} · osculate", self.state.title().unwrap_or_default()));
         }

@@ -14,8 +14,8 @@ pub(super) fn show(ui: &mut Ui, state: &mut State) {
             .on_hover_text("segments of equal length in the picture");
     });
     if look.adaptive {
-        let slider = Slider::new(&mut look.pixels, 1.0..=64.0).logarithmic(true).max_decimals(1).suffix(" px");
-        line(ui, "length", |ui| drop(ui.add(slider)));
+        let slider = Slider::new(&mut look.pixels, 1.0..=64.0).logarithmic(true).max_decimals(1);
+        line(ui, "pixels", |ui| drop(ui.add(slider)));
         line(ui, "", |ui| {
             drop(ui.checkbox(&mut state.frozen, "freeze").on_hover_text("keep factors while the camera moves"))
         });
