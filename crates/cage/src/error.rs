@@ -138,6 +138,11 @@ impl CageError {
     }
 }
 
+/// A line, from 1, as messages append it to the name of its file.
+fn place(line: Option<u32>) -> String {
+    line.map(|line| format!(":{line}")).unwrap_or_default()
+}
+
 /// Why a file could not be read as a cage. Messages are one line that starts with the file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -167,7 +172,7 @@ pub enum ReadError {
         error: ObjError,
     },
     /// A PLY file is malformed.
-    #[error("{file}: {error}")]
+    #[error("{file}{}: {error}", place(.error.line()))]
     Ply {
         /// The name of the file.
         file: String,
@@ -201,7 +206,7 @@ pub enum ReadError {
         error: GltfError,
     },
     /// A USD file is malformed, or needs others.
-    #[error("{file}: {error}")]
+    #[error("{file}{}: {error}", place(.error.line()))]
     Usd {
         /// The name of the file.
         file: String,
@@ -217,7 +222,7 @@ pub enum ReadError {
         error: SequenceError,
     },
     /// The file is well formed but what it holds is not a cage.
-    #[error("{file}{}: {error}{}", .line.map(|line| format!(":{line}")).unwrap_or_default(), .error.counting())]
+    #[error("{file}{}: {error}{}", place(*.line), .error.counting())]
     Refused {
         /// The name of the file.
         file: String,

@@ -14,7 +14,7 @@ pub enum PlyError {
     #[error("the header does not end: there is no line `end_header`")]
     EndlessHeader,
     /// A line of the header that means nothing.
-    #[error("line {line}: {reason}")]
+    #[error("{reason}")]
     Header {
         /// The line.
         line: u32,
@@ -52,7 +52,7 @@ pub enum PlyError {
         count: u64,
     },
     /// A word that is not a number.
-    #[error("line {line}: {word:?} in {element} {index} is not {expected}")]
+    #[error("{word:?} in {element} {index} is not {expected}")]
     Word {
         /// The line.
         line: u32,
@@ -117,4 +117,15 @@ pub enum PlyError {
     /// A limit of the reader.
     #[error(transparent)]
     Limit(#[from] LimitError),
+}
+
+impl PlyError {
+    /// The line at fault, from 1, where one is known; messages leave it to [`ReadError`](crate::ReadError).
+    #[must_use]
+    pub fn line(&self) -> Option<u32> {
+        match self {
+            Self::Header { line, .. } | Self::Word { line, .. } => Some(*line),
+            _ => None,
+        }
+    }
 }

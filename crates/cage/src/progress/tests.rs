@@ -101,6 +101,18 @@ fn glb() -> Vec<u8> {
     [&b"glTF"[..], &word(2), &word(12 + chunks.len()), &chunks].concat()
 }
 
+fn usda() -> Vec<u8> {
+    let (positions, faces) = strip(20);
+    let points: Vec<String> = positions.iter().map(|[x, y]| format!("({x}, {y}, 0)")).collect();
+    let corners: Vec<String> = faces.iter().flatten().map(u32::to_string).collect();
+    let (points, counts, corners) = (points.join(", "), vec!["3"; faces.len()].join(", "), corners.join(", "));
+    format!(
+        "#usda 1.0\ndef Mesh \"strip\" {{\npoint3f[] points = [{points}]\n\
+         int[] faceVertexCounts = [{counts}]\nint[] faceVertexIndices = [{corners}]\n}}\n"
+    )
+    .into_bytes()
+}
+
 #[test]
 fn every_stage_is_told_and_can_be_ended() {
     use ReadStage::{Creases, Fetch, Parse, Polygons, Repair, Topology};
@@ -112,6 +124,7 @@ fn every_stage_is_told_and_can_be_ended() {
         ("a.off", off(), &plain),
         ("a.ply", ply(), &plain),
         ("a.glb", glb(), &with_polygons),
+        ("a.usda", usda(), &plain),
     ] {
         let path = folder.path().join(name);
         std::fs::write(&path, bytes).expect("written");

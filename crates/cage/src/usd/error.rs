@@ -8,7 +8,7 @@ use crate::listed::numbered;
 #[non_exhaustive]
 pub enum UsdError {
     /// The text form is malformed.
-    #[error("line {line}: {problem}")]
+    #[error("{problem}")]
     Syntax {
         /// The line, from 1.
         line: u32,
@@ -21,6 +21,9 @@ pub enum UsdError {
     /// The binary form is malformed.
     #[error("the binary file is damaged: {0}")]
     Crate(String),
+    /// A version of the text form that is not read, or what stands where one is due.
+    #[error("version {0:?} of the text form is not read, only 1.0 and later ones of 1: the first line is `#usda 1.0`")]
+    TextVersion(String),
     /// A version of the binary form that is not read.
     #[error("version {0}.{1}.{2} of the binary form is not read; write the file as text: usdcat FILE -o text.usda")]
     Version(u8, u8, u8),
@@ -117,4 +120,17 @@ pub enum UsdError {
     /// A limit of the reader.
     #[error(transparent)]
     Limit(#[from] LimitError),
+}
+
+impl UsdError {
+    /// The line at fault, from 1, if that is known; messages leave it to [`ReadError`](crate::ReadError).
+    #[must_use]
+    pub fn line(&self) -> Option<u32> {
+        match self {
+            Self::Syntax { line, .. } => Some(*line),
+            Self::TextVersion(_) => Some(1),
+            Self::Value { error, .. } => error.line(),
+            _ => None,
+        }
+    }
 }

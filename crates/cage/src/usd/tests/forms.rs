@@ -61,7 +61,7 @@ fn frames_are_where_pixars_library_puts_them() {
 /// Whatever happens to a file, it is a cage or refused.
 fn survives(bytes: &[u8]) {
     if let Err(error) = read(bytes) {
-        assert!(error.to_string().starts_with("moving: "), "{error}");
+        assert!(error.to_string().starts_with("moving:"), "{error}");
     }
 }
 

@@ -15,10 +15,11 @@ fn read(text: &str) -> Result<Cage, ReadError> {
     read_usd(format!("#usda 1.0\n{text}").as_bytes(), "a.usda", &ReadDesc::default())
 }
 
-/// The message for a text without its first line, without the name of the file.
+/// The message for a text without its first line, without the name of the file; with the line, if it has one.
 fn message(text: &str) -> String {
     let message = read(text).expect_err("must be refused").to_string();
-    message.strip_prefix("a.usda: ").expect("the file comes first").to_string()
+    let message = message.strip_prefix("a.usda").expect("the file comes first");
+    message.strip_prefix(": ").unwrap_or(message).to_string()
 }
 
 /// The properties of a square in the plane of x and y.

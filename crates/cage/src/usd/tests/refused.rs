@@ -6,17 +6,17 @@ use crate::LimitError;
 #[test]
 fn malformed_text() {
     for (text, expected) in [
-        ("def", "line 2: expected the name of a prim, not the end of the file"),
-        ("def Mesh \"A\"", "line 2: expected `{`, not the end of the file"),
-        ("def Mesh \"A\" {\n\n", "line 4: the file ends within /A"),
-        ("5", "line 2: expected a prim, such as `def Mesh \"Cube\"`, not `5`"),
-        ("def \"A\" {\n int = 5 }", "line 3: expected the name of an attribute, not `=`"),
-        ("def \"A\" {\n int a = }", "line 3: expected a value, not `}`"),
-        ("def \"A\" { int a.timeSamples = [] }", "line 2: expected `{`, not `[`"),
-        ("def \"A\" { int a.timeSamples = { x : 1 } }", "line 2: expected the time of a sample, not `x`"),
-        ("def \"A\" { int a.timeSamples = { 1: 1 2: 2 } }", "line 2: expected `,` or `}`, not `2`"),
-        ("def \"A\" (\n kind \"b\") { }", "line 3: expected `=`, not the text \"b\""),
-        ("(\n upAxis = \"Y\"", "line 3: expected a key or `)`, not the end of the file"),
+        ("def", ":2: expected the name of a prim, not the end of the file"),
+        ("def Mesh \"A\"", ":2: expected `{`, not the end of the file"),
+        ("def Mesh \"A\" {\n\n", ":4: the file ends within /A"),
+        ("5", ":2: expected a prim, such as `def Mesh \"Cube\"`, not `5`"),
+        ("def \"A\" {\n int = 5 }", ":3: expected the name of an attribute, not `=`"),
+        ("def \"A\" {\n int a = }", ":3: expected a value, not `}`"),
+        ("def \"A\" { int a.timeSamples = [] }", ":2: expected `{`, not `[`"),
+        ("def \"A\" { int a.timeSamples = { x : 1 } }", ":2: expected the time of a sample, not `x`"),
+        ("def \"A\" { int a.timeSamples = { 1: 1 2: 2 } }", ":2: expected `,` or `}`, not `2`"),
+        ("def \"A\" (\n kind \"b\") { }", ":3: expected `=`, not the text \"b\""),
+        ("(\n upAxis = \"Y\"", ":3: expected a key or `)`, not the end of the file"),
     ] {
         assert_eq!(message(text), expected, "{text}");
     }
@@ -25,7 +25,7 @@ fn malformed_text() {
 #[test]
 fn values_that_are_none_name_their_line() {
     let text = square("").replace("(1, 1, 0)", "(1, one, 0)");
-    assert_eq!(message(&text), "/Square.points: line 5: expected a number, not `one`");
+    assert_eq!(message(&text), ":5: /Square.points: expected a number, not `one`");
 }
 
 #[test]

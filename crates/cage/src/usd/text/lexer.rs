@@ -267,7 +267,10 @@ mod tests {
 
     #[test]
     fn what_is_not_closed_is_named_with_its_line() {
-        let message = |text: &str| Lexer::new(text.as_bytes()).skip_value().expect_err("malformed").to_string();
+        let message = |text: &str| {
+            let error = Lexer::new(text.as_bytes()).skip_value().expect_err("malformed");
+            format!("line {}: {error}", error.line().expect("a line"))
+        };
         assert_eq!(message("\n[1, (2\n"), "line 2: `[` is not closed");
         assert_eq!(message("[1, (2]\n)"), "line 1: expected `)`, not `]`");
         assert_eq!(message("\n\n\"abc\n\""), "line 3: a string is not closed in its line");

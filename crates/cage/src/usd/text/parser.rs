@@ -10,10 +10,24 @@ use crate::usd::values::Value;
 
 /// Reads the structure of a text.
 pub(in crate::usd) fn parse(text: &[u8], gauge: &mut Gauge) -> Result<Layer, UsdError> {
+    check_version(text)?;
     let mut parser = Parser { text, lexer: Lexer::new(text), layer: Layer::default(), gauge };
     parser.layer_metadata()?;
     parser.prims()?;
     Ok(parser.layer)
+}
+
+/// Checks the version after `#usda`: forms with another first number may mean anything by the same words.
+fn check_version(text: &[u8]) -> Result<(), UsdError> {
+    let text = text.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(text);
+    let first = text.split(|byte| matches!(byte, b'\n' | b'\r')).next().unwrap_or_default();
+    let version = first.strip_prefix(b"#usda").and_then(|rest| crate::text::words(rest).next()).unwrap_or_default();
+    let minor = version.strip_prefix(b"1.").unwrap_or_default();
+    if !minor.is_empty() && minor.iter().all(u8::is_ascii_digit) {
+        Ok(())
+    } else {
+        Err(UsdError::TextVersion(crate::text::quoted(version)))
+    }
 }
 
 struct Parser<'a, 'g> {

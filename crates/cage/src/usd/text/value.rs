@@ -89,7 +89,10 @@ mod tests {
 
     #[test]
     fn malformed_numbers() {
-        let message = |text: &str, size| numbers(text.as_bytes(), size).expect_err("malformed").to_string();
+        let message = |text: &str, size| {
+            let error = numbers(text.as_bytes(), size).expect_err("malformed");
+            format!("line {}: {error}", error.line().expect("a line"))
+        };
         assert_eq!(message("[1, x]", 1), "line 1: expected a number, not `x`");
         assert_eq!(message("[1\n2]", 1), "line 2: expected `,` or `]`, not `2`");
         assert_eq!(message("[(1, 2)]", 3), "line 1: a tuple of 2 numbers where 3 are due");

@@ -11,7 +11,7 @@ pub(super) fn read(file: &Path) -> Result<Vec<Row>, Failure> {
         .map_err(|error| Failure::unreadable(format_args!("{}: cannot be read: {error}", file.display())))?;
     let row = |(number, line): (usize, &str)| {
         serde_json::from_str(line).map_err(|error| {
-            Failure::unreadable(format_args!("{}: line {}: {error}", file.display(), number + 1))
+            Failure::unreadable(format_args!("{}:{}: {error}", file.display(), number + 1))
                 .with_hint("give a file that bench --json wrote")
         })
     };
