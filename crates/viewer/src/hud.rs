@@ -24,15 +24,15 @@ pub(crate) fn show(ui: &mut Ui, rect: Rect, state: &mut State) {
         marker(ui, rect, state, picked);
         card(ui, "picked", rect.left_bottom() + vec2(MARGIN, -MARGIN), Align2::LEFT_BOTTOM, |ui| point(ui, picked));
     }
-    if let (Some(vertex), Some(points)) = (state.sculpting.dragged.or(state.sculpting.hovered), state.points()) {
-        if let Some(at) = points.get(vertex).and_then(|&point| on_screen(state, rect, point)) {
-            ui.painter().circle(
-                at,
-                7.0,
-                Color32::from_rgba_unmultiplied(255, 210, 160, 60),
-                Stroke::new(1.5, Color32::WHITE),
-            );
-        }
+    if let (Some(vertex), Some(points)) = (state.sculpting.dragged.or(state.sculpting.hovered), state.points())
+        && let Some(at) = points.get(vertex).and_then(|&point| on_screen(state, rect, point))
+    {
+        ui.painter().circle(
+            at,
+            7.0,
+            Color32::from_rgba_unmultiplied(255, 210, 160, 60),
+            Stroke::new(1.5, Color32::WHITE),
+        );
     }
     notes(ui, rect, state);
     if state.model.is_none() && state.status.work.is_none() {

@@ -188,7 +188,7 @@ fn buffer(device: &Device, name: &str, usage: BufferUsage, size: u64) -> Result<
 /// Makes room for so many bytes.
 fn grow(device: &Device, known: &mut Buffer, size: u64) -> Result<(), GpuError> {
     if known.size() < size {
-        *known = buffer(device, &known.name().to_owned(), known.usage(), size.next_power_of_two())?;
+        *known = buffer(device, known.name(), known.usage(), size.next_power_of_two())?;
     }
     Ok(())
 }

@@ -175,10 +175,10 @@ impl Session {
         match event {
             WindowEvent::Resized(size) => self.presenter.resize((*size).into()),
             WindowEvent::DroppedFile(file) => self.state.models.open(file.clone()),
-            WindowEvent::KeyboardInput { event, .. } if event.state.is_pressed() && !event.repeat => {
-                if self.on_key(&event.logical_key) {
-                    return self.wants_frame(Instant::now());
-                }
+            WindowEvent::KeyboardInput { event, .. }
+                if event.state.is_pressed() && !event.repeat && self.on_key(&event.logical_key) =>
+            {
+                return self.wants_frame(Instant::now());
             }
             _ => {}
         }

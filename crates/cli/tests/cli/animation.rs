@@ -1,6 +1,6 @@
 //! `osculate render` of what moves.
 
-use crate::support::{CAGE, command, osculate};
+use crate::support::{CAGE, osculate};
 use osculate_compare::{Picture, load};
 use serde_json::json;
 use std::fs;
@@ -180,20 +180,21 @@ fn what_cannot_be_played_is_refused() {
     assert_eq!(names(&folder), [""; 0]);
 }
 
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 #[test]
 fn an_interruption_leaves_whole_pictures_only() {
+    use crate::support::{interruptible, send};
     use std::os::unix::process::ExitStatusExt;
-    use std::process::{Command, Stdio};
+    use std::process::Stdio;
 
     let folder = folder();
     let arguments = [&["render", "slide.gltf", "-o", "f_%06d.png", "--frames", "0..100000"], &AHEAD[..]].concat();
-    let mut child = command(folder.path(), &arguments).stderr(Stdio::null()).spawn().unwrap();
+    let mut child = interruptible(folder.path(), &arguments).stderr(Stdio::null()).spawn().unwrap();
     while names(&folder).iter().filter(|name| name.ends_with(".png")).count() < 3 {
         assert_eq!(child.try_wait().unwrap(), None, "it has not ended");
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
-    assert!(Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap().success());
+    send("INT", &child);
     assert_eq!(child.wait().unwrap().signal(), Some(2));
     for (k, name) in names(&folder).iter().enumerate() {
         assert_eq!(*name, format!("f_{k:06}.png"));

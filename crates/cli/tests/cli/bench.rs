@@ -1,6 +1,6 @@
 //! `osculate bench`: what it prints and writes, never how long anything takes.
 
-use crate::support::{CAGE, command, osculate};
+use crate::support::{CAGE, osculate};
 use serde_json::Value;
 use std::fs;
 use std::path::Path;
@@ -144,19 +144,19 @@ fn mistakes_are_found_before_anything_is_measured() {
 }
 
 /// The first interruption ends the measuring, not the command: what was measured is kept.
-#[cfg(unix)]
+#[cfg(target_os = "linux")]
 #[test]
 fn an_interruption_keeps_what_was_measured() {
+    use crate::support::{interruptible, send};
     use std::os::unix::process::ExitStatusExt;
     use std::time::{Duration, Instant};
     let folder = folder();
     let arguments = ["bench", "cage.obj", "--levels", "1,2", "--size", "16x16", "--evaluator", "compute"];
     // A round each second, for two days; the folder shows when the first level is done.
     let endless = ["--frames", "100000000", "--rounds", "2", "--max-seconds", "2", "--json", "now.json"];
-    let mut child = command(folder.path(), &[&arguments[..], &endless].concat()).spawn().unwrap();
+    let mut child = interruptible(folder.path(), &[&arguments[..], &endless].concat()).spawn().unwrap();
     std::thread::sleep(Duration::from_millis(3500));
-    let kill = std::process::Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
-    assert!(kill.success());
+    send("INT", &child);
     let start = Instant::now();
     let status = child.wait().unwrap();
     assert!(start.elapsed() < Duration::from_secs(60));

@@ -1,6 +1,6 @@
 //! `osculate repair`, and the options with which cages are read.
 
-use crate::support::{command, osculate};
+use crate::support::osculate;
 use serde_json::{Value, json};
 use std::fs;
 use tempfile::{TempDir, tempdir};
@@ -149,19 +149,20 @@ fn advice_has_hints() {
 #[cfg(target_os = "linux")]
 #[test]
 fn an_interrupted_read_leaves_no_file() {
+    use crate::support::{interruptible, send};
     use std::io::Write;
     use std::os::unix::process::ExitStatusExt;
-    use std::process::{Command, Stdio};
+    use std::process::Stdio;
     use std::time::Duration;
     let folder = folder();
     let mut child =
-        command(folder.path(), &["repair", "/dev/stdin", "-o", "out.obj"]).stdin(Stdio::piped()).spawn().unwrap();
+        interruptible(folder.path(), &["repair", "/dev/stdin", "-o", "out.obj"]).stdin(Stdio::piped()).spawn().unwrap();
     // A file whose end does not come.
     let mut file = child.stdin.take().unwrap();
     file.write_all(b"OFF\n4 1 4\n0 0 0\n").unwrap();
     std::thread::sleep(Duration::from_millis(50));
     assert!(child.try_wait().unwrap().is_none(), "it waits for the rest");
-    assert!(Command::new("kill").args(["-s", "INT", &child.id().to_string()]).status().unwrap().success());
+    send("INT", &child);
     assert_eq!(child.wait().unwrap().signal(), Some(2));
     assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
 }

@@ -1,6 +1,6 @@
 //! `osculate sample`.
 
-use crate::support::{CAGE, command, osculate};
+use crate::support::{CAGE, osculate};
 use std::fs;
 use tempfile::{TempDir, tempdir};
 
@@ -153,21 +153,20 @@ fn the_device_agrees_with_the_reference_where_the_surface_is_bicubic() {
 #[cfg(target_os = "linux")]
 #[test]
 fn an_interrupted_run_leaves_no_file() {
+    use crate::support::{interruptible, send};
     use std::os::unix::process::ExitStatusExt;
-    use std::process::Command;
     use std::time::{Duration, Instant};
     for (name, number) in [("INT", 2), ("TERM", 15), ("HUP", 1)] {
         let folder = folder();
         let names = || fs::read_dir(folder.path()).unwrap().count();
         let arguments = [&REFERENCE[..], &["--grid", "20000", "-o", "out.csv"]].concat();
-        let mut child = command(folder.path(), &arguments).spawn().unwrap();
+        let mut child = interruptible(folder.path(), &arguments).spawn().unwrap();
         let start = Instant::now();
         while names() < 2 {
             assert!(start.elapsed() < Duration::from_secs(60), "nothing was begun");
             std::thread::sleep(Duration::from_millis(5));
         }
-        let sent = Command::new("kill").args(["-s", name, &child.id().to_string()]).status().unwrap();
-        assert!(sent.success());
+        send(name, &child);
         assert_eq!(child.wait().unwrap().signal(), Some(number), "SIG{name}");
         assert_eq!(names(), 1, "SIG{name}");
     }

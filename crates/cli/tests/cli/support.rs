@@ -40,6 +40,29 @@ pub(crate) fn command(folder: &Path, arguments: &[&str]) -> Command {
     command
 }
 
+/// [`command`], which heeds all signals, though the tests themselves may ignore some: jobs in the background of a script do.
+#[cfg(target_os = "linux")]
+pub(crate) fn interruptible(folder: &Path, arguments: &[&str]) -> Command {
+    let plain = command(folder, arguments);
+    let mut command = Command::new("env");
+    command.arg("--default-signal=INT,TERM,HUP").arg(plain.get_program()).args(plain.get_args()).current_dir(folder);
+    for (name, value) in plain.get_envs() {
+        match value {
+            Some(value) => command.env(name, value),
+            None => command.env_remove(name),
+        };
+    }
+    command.stdin(Stdio::null());
+    command
+}
+
+/// Sends a signal by its name.
+#[cfg(target_os = "linux")]
+pub(crate) fn send(name: &str, process: &std::process::Child) {
+    let status = Command::new("kill").args(["-s", name, &process.id().to_string()]).status();
+    assert!(status.expect("there is a command kill").success(), "SIG{name} was not sent");
+}
+
 /// What a run left.
 pub(crate) struct Ran {
     pub(crate) stdout: String,
