@@ -13,7 +13,7 @@ use osculate::{
     Animator, Drawing, Engine, EngineError, Evaluator, PatchKind, Recording, Scheme, Shade, Spacing, Surface,
     SurfaceDesc, Target, Targets,
 };
-use osculate_cage::{Cage, ReadDesc, ReadError, ReadObserver, ReadProgress, ReadStage};
+use osculate_cage::{Cage, ReadDesc, ReadError, ReadObserver, ReadProgress, ReadStage, Sequence};
 
 use crate::census::Census;
 use crate::dress::Dress;
@@ -28,6 +28,8 @@ pub(crate) enum News {
     Built(Box<Scene>),
     /// Why not.
     Failed { wanted: Box<Wanted>, message: String },
+    /// Where a sequence has moved the vertices.
+    Moved(Result<Vec<DVec3>, String>),
     /// What is at a place, if anything.
     Picked(Result<Option<Picked>, String>),
 }
@@ -125,6 +127,7 @@ struct Model {
     revision: u32,
     shaders: u32,
     cage: Arc<Cage>,
+    sequence: Option<Arc<Sequence>>,
 }
 
 impl Workshop {
@@ -162,7 +165,9 @@ impl Workshop {
         let points = points.filter(|points| points.len() == cage.vertex_count()).unwrap_or(cage.positions());
         let points = wanted.against.is_some().then_some(points);
         let desc = wanted.drawing(sight, cage.bounds());
-        let mut scene = Scene { wanted: wanted.clone(), cage: Arc::clone(&cage), sides: Vec::new(), difference: None };
+        let sequence = self.cage.as_ref().and_then(|model| model.sequence.clone());
+        let mut scene =
+            Scene { wanted: wanted.clone(), cage: Arc::clone(&cage), sequence, sides: Vec::new(), difference: None };
         for &scheme in &wanted.schemes {
             let surface = self.surface(engine, (&cage, wanted), scheme, points)?;
             self.progress(&format!("preparing {scheme}"));
@@ -195,17 +200,19 @@ impl Workshop {
             }
             return Ok(Arc::clone(&model.cage));
         }
-        let cage = Arc::new(self.read(number, &wanted.file)?);
+        let sequence = self.read(number, &wanted.file)?;
+        let cage = Arc::new(sequence.cage().clone());
+        let sequence = Some(sequence).filter(|sequence| sequence.frame_count() > 1).map(Arc::new);
         for warning in cage.warnings() {
             tracing::warn!("{}: {warning}", wanted.file.display());
         }
         let (file, revision, shaders) = (wanted.file.clone(), wanted.revision, wanted.shaders);
         self.surfaces.clear();
-        self.cage = Some(Model { file, revision, shaders, cage: Arc::clone(&cage) });
+        self.cage = Some(Model { file, revision, shaders, cage: Arc::clone(&cage), sequence });
         Ok(cage)
     }
 
-    fn read(&self, number: u64, file: &Path) -> Result<Cage, Stop> {
+    fn read(&self, number: u64, file: &Path) -> Result<Sequence, Stop> {
         let (tell, newest) = (Arc::clone(&self.tell), Arc::clone(&self.newest));
         let observer = ReadObserver::new(move |ReadProgress { stage, done, total }| {
             let part = (total > 0).then(|| done as f32 / total as f32);
@@ -213,7 +220,7 @@ impl Workshop {
             if newest.load(Ordering::Relaxed) == number { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         let desc = ReadDesc { observer: Some(observer), ..self.read.clone() };
-        Cage::read_with(file, &desc).map_err(|error| match error {
+        Sequence::open(file, &desc).map_err(|error| match error {
             ReadError::Cancelled { .. } => Stop::Superseded,
             error => Stop::Failed(error.to_string()),
         })

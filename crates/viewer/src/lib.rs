@@ -30,6 +30,7 @@ mod settings;
 mod stage;
 mod state;
 mod status;
+mod stream;
 mod theme;
 mod views;
 

@@ -8,7 +8,7 @@ use osculate::{
     Animator, Culling, Difference, Drawing, DrawingDesc, EngineError, Evaluator, Factors, Recording, Scheme, Shade,
     Spacing, Surface, Target, Tessellation,
 };
-use osculate_cage::{Bounds, Cage};
+use osculate_cage::{Bounds, Cage, Sequence};
 
 use crate::camera::Orbit;
 use crate::census::Census;
@@ -52,6 +52,8 @@ pub(crate) struct Sight {
 pub(crate) struct Scene {
     pub(crate) wanted: Wanted,
     pub(crate) cage: Arc<Cage>,
+    /// The frames, of a model that has several.
+    pub(crate) sequence: Option<Arc<Sequence>>,
     pub(crate) sides: Vec<Side>,
     /// The distances that are shown.
     pub(crate) difference: Option<Difference>,
@@ -127,10 +129,12 @@ impl Scene {
         self.sides.iter().map(|side| side.drawing.bytes() + side.surface().bytes()).sum()
     }
 
-    /// Name and length in seconds of every animation.
+    /// Name and length in seconds of every animation; of a sequence its frames.
     pub(crate) fn animations(&self) -> impl Iterator<Item = (&str, f64)> {
+        let length = |times: &[f64]| times.last().unwrap_or(&0.0) - times.first().unwrap_or(&0.0);
+        let frames = self.sequence.iter().map(move |sequence| ("frames", length(sequence.times())));
         let rig = self.sides.first().and_then(|side| side.animator.as_ref()).map(Animator::rig);
-        rig.into_iter().flat_map(|rig| &rig.animations).map(|one| (one.name.as_str(), one.duration()))
+        rig.into_iter().flat_map(|rig| &rig.animations).map(|one| (one.name.as_str(), one.duration())).chain(frames)
     }
 }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use egui::ViewportId;
+use glam::DVec3;
 use osculate::gpu::{Format, Presenter, PresenterDesc, Submission, WindowSystem};
 use osculate::{Device, DeviceDesc, Engine, EngineDesc, PipelineObserver, PipelineProgress, ShaderSet};
 use winit::event::WindowEvent;
@@ -21,6 +22,7 @@ use crate::painter::Painter;
 use crate::scene::{Scene, Wanted};
 use crate::stage::{Shown, Stage};
 use crate::state::{DeviceFacts, State};
+use crate::stream::Stream;
 use crate::{ViewerDesc, theme};
 
 mod frame;
@@ -43,6 +45,9 @@ pub(crate) struct Session {
     stage: Option<Stage>,
     scene: Option<Scene>,
     marks: Option<Marks>,
+    /// Reads the frames of the scene's sequence, and the positions that came from there.
+    stream: Option<Stream>,
+    streamed: Option<Vec<DVec3>>,
     painter: Painter,
     presenter: Presenter,
     shaders: ShaderSet,
@@ -52,6 +57,7 @@ pub(crate) struct Session {
     input: egui_winit::State,
     egui: egui::Context,
     pace: Pace,
+    wake: EventLoopProxy<Wake>,
     /// What is to be done in the next frame.
     postponed: Vec<Deed>,
     /// When a frame is wanted.
@@ -127,6 +133,9 @@ impl Session {
             stage: None,
             scene: None,
             marks: None,
+            stream: None,
+            streamed: None,
+            wake: wake.clone(),
             painter: Painter::new(engine.device(), &shaders, presenter.format())?,
             presenter,
             shaders,
@@ -213,6 +222,11 @@ impl Session {
                 self.state.status.error(message);
                 self.go_back(&wanted);
             }
+            News::Moved(Ok(positions)) => self.streamed = Some(positions),
+            News::Moved(Err(message)) => {
+                self.state.playback.plays = false;
+                self.state.status.error(message);
+            }
             News::Picked(Ok(picked)) => {
                 self.state.status.work = None;
                 if let Some(picked) = &picked {
@@ -273,6 +287,25 @@ impl Session {
         self.state.models.go_back(shown.as_ref().map(|(file, revision)| (file.as_path(), *revision)));
     }
 
+    /// Has the frames of a scene's sequence read, if it has any.
+    fn follow(&mut self, scene: &Scene) -> Result<(), ViewerError> {
+        self.streamed = None;
+        let Some(sequence) = &scene.sequence else {
+            self.stream = None;
+            return Ok(());
+        };
+        if let Some(stream) = self.stream.as_mut().filter(|stream| stream.is_of(sequence)) {
+            stream.forget();
+            return Ok(());
+        }
+        let (id, wake) = (self.id, self.wake.clone());
+        let stream = Stream::start(sequence, move |positions| {
+            let _closed = wake.send_event(Wake::News(id, Box::new(News::Moved(positions))));
+        });
+        self.stream = Some(stream.map_err(ViewerError::Thread)?);
+        Ok(())
+    }
+
     /// Shows a scene from now on.
     fn install(&mut self, scene: Scene) -> Result<(), ViewerError> {
         if self.ordered.as_ref() == Some(&scene.wanted) {
@@ -298,6 +331,7 @@ impl Session {
         if self.marks.as_ref().is_none_or(|marks| marks.target != scene.wanted.target) {
             self.marks = Some(Marks::new(self.engine.device(), &self.shaders, scene.wanted.target)?);
         }
+        self.follow(&scene)?;
         self.scene = Some(scene);
         self.state.sculpting.is_new = true;
         self.shown = None;

@@ -7,6 +7,7 @@ use crate::options::{DisplaceArgs, DrawEvaluator, Level, Pixels, ReadArgs, Schem
 use clap::{Args, ValueEnum};
 use etcetera::{BaseStrategy, choose_base_strategy};
 use osculate::{EngineError, Evaluator, Shade, Spacing};
+use osculate_cage::Sequence;
 use osculate_viewer::{CameraPose, Dress, LookDesc, ViewerDesc, ViewerError};
 use std::path::PathBuf;
 
@@ -18,7 +19,7 @@ use std::path::PathBuf;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct ViewArgs {
-    /// The control cages: .obj, .ply, .off, .gltf, .glb, .usd. N and P go from one to the next.
+    /// The control cages: .obj, .ply, .off, .gltf, .glb, .usd, or frames by a pattern as in render. N and P go from one to the next.
     #[arg(value_name = "FILES")]
     files: Vec<PathBuf>,
 
@@ -134,7 +135,7 @@ const SETTINGS: &str = "OSCULATE_SETTINGS";
 impl ViewArgs {
     /// Checks what can be checked without a window.
     pub(crate) fn validate(self, global: &GlobalArgs) -> Result<ViewerDesc, Failure> {
-        for file in &self.files {
+        for file in self.files.iter().filter(|file| !Sequence::is_pattern(file)) {
             let reason = std::fs::metadata(file).err().map(|error| format!("{}: {error}", file.display()));
             reason.map_or(Ok(()), |reason| Err(Failure::unreadable(reason)))?;
         }

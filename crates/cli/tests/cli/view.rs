@@ -267,6 +267,28 @@ fn the_mouse_turns_picks_and_moves_vertices() {
 }
 
 #[test]
+fn frames_of_numbered_files_play() {
+    let tall = CUBE.replace(" 1 1\n", " 1 9\n");
+    let folder = folder_with(&[("f_1.obj", CUBE), ("f_2.obj", CUBE), ("f_3.obj", &tall), ("f_4.obj", &tall)]);
+    let mut viewer = Viewer::open(folder.path(), &["f_%d.obj"]);
+    let first = viewer.screenshot("x");
+    viewer.press("space");
+    let begin = Instant::now();
+    while viewer.screenshot("x").rgba == first.rgba {
+        assert!(begin.elapsed() < PATIENCE, "nothing moves");
+    }
+    viewer.press("BackSpace");
+    while viewer.screenshot("x").rgba != first.rgba {
+        assert!(begin.elapsed() < PATIENCE, "the vertices do not come back");
+    }
+    // A frame that is gone ends the playing, not the window.
+    std::fs::remove_file(folder.path().join("f_3.obj")).unwrap();
+    viewer.press_for("space", "f_3.obj");
+    viewer.press("q");
+    viewer.ends_with(1);
+}
+
+#[test]
 fn without_a_display_there_is_an_error() {
     let folder = folder_with(&[("cube.obj", CUBE)]);
     for display in [None, Some(":65000")] {

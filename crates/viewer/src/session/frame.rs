@@ -15,6 +15,7 @@ use crate::input::{Asked, Click, navigate, picture_rect};
 use crate::picking::Pick;
 use crate::scene::Sight;
 use crate::stage::{Shown, Stage};
+use crate::stream::Stream;
 use crate::views::{View, views};
 use crate::{hud, panels, screenshot, theme};
 
@@ -210,7 +211,19 @@ impl Session {
     fn move_vertices(&mut self) -> Result<(), EngineError> {
         let Some(scene) = &mut self.scene else { return Ok(()) };
         let (playback, sculpting) = (&self.state.playback, &mut self.state.sculpting);
-        if playback.is_posed {
+        if !playback.is_posed {
+            self.streamed = None;
+            self.stream.iter_mut().for_each(Stream::forget);
+        }
+        if playback.is_posed
+            && let Some(stream) = &mut self.stream
+        {
+            stream.ask(playback.time);
+            if let Some(positions) = self.streamed.take() {
+                scene.write_points(&positions)?;
+                self.vertices_moved = true;
+            }
+        } else if playback.is_posed {
             scene.set_time(playback.animation, playback.time)?;
             self.vertices_moved = true;
         } else if std::mem::take(&mut sculpting.is_new) {
