@@ -68,6 +68,13 @@ pub fn surface_of(engine: &Engine, cage: &Cage, scheme: Scheme, boundary: Option
     }
 }
 
+/// The schemes that the cage of a number in a long row is tested with: all, or for a large one another one for each number. What is
+/// drawn of large cages is of the kinds that small ones have.
+pub fn schemes_in_turn(number: usize, cage: &Cage) -> &'static [Scheme] {
+    let one = number % Scheme::ALL.len();
+    if cage.face_count() > 500 { &Scheme::ALL[one..=one] } else { Scheme::ALL }
+}
+
 /// All boundary rules.
 pub const RULES: [BoundaryRule; 3] = [BoundaryRule::EdgeAndCorner, BoundaryRule::EdgeOnly, BoundaryRule::None];
 

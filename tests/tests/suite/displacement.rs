@@ -28,21 +28,23 @@ fn adaptive(cage: &Cage) -> Tessellation {
 fn every_edge_may_be_a_seam() {
     let gpu = gpu();
     let map = rough();
-    for (name, cage) in cages() {
+    for (number, (name, cage)) in cages().into_iter().enumerate() {
         let cage = torn(&cage);
-        for &scheme in Scheme::ALL {
+        for (turn, &scheme) in Scheme::ALL.iter().enumerate() {
             let size = cage.bounds().half_diagonal();
             let surface = displaced(&gpu, &cage, scheme, &map, 0.2 * size, -0.05 * size);
             let compute = Tessellation { evaluator: Evaluator::Compute, ..Tessellation::uniform(3.0) };
             let tessellator = Tessellation { evaluator: Evaluator::Tessellator, ..compute };
-            for tessellation in [
+            let tessellations = [
                 tessellator,
                 compute,
                 Tessellation { factors: Factors::Uniform(2.7), spacing: Spacing::Even, ..compute },
                 Tessellation { evaluator: Evaluator::Tessellator, ..adaptive(&cage) },
                 Tessellation { evaluator: Evaluator::Compute, ..adaptive(&cage) },
-            ] {
-                let report = check(&surface, &tessellation).unwrap();
+            ];
+            // Two of them for each, in turn.
+            for tessellation in tessellations.iter().cycle().skip(number + 2 * turn).take(2) {
+                let report = check(&surface, tessellation).unwrap();
                 assert!(report.is_watertight(), "{name}, {scheme}, {tessellation:?}: {report:?}");
                 assert_eq!((report.split_positions, report.weld.open), (0, 0), "{name}, {scheme}: {report:?}");
             }
