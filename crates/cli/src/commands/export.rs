@@ -5,21 +5,25 @@ use crate::device::with_engine;
 use crate::failure::{Failure, Verdict, WriteError};
 use crate::input::InputArgs;
 use crate::mesh::soup::{Soup, SoupVertex};
-use crate::mesh::{Mesh, Welder, glb, obj, ply, stl};
-use crate::options::{CameraArgs, DisplaceArgs, Output, SchemeName, TessellationArgs};
+use crate::mesh::{Corner, Mesh, Welder, glb, obj, ply, stl};
+use crate::options::{CameraArgs, DisplaceArgs, Output, SchemeName, TessellationArgs, uv_origin};
 use crate::progress::Progress;
 use clap::Args;
 use glam::Vec3;
-use osculate::{CapturedVertex, Engine, Place, Scheme, SubFace, Surface, SurfaceDesc, Tessellation, VertexKey};
+use osculate::{
+    CapturedVertex, Engine, Place, Scheme, SubFace, Surface, SurfaceDesc, Tessellation, UvOrigin, VertexKey,
+};
 use osculate_cage::{Bounds, Cage};
 use osculate_compare::whole_file;
+use osculate_subdiv::UvTables;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 /// Write the triangles that the device draws: PLY, OBJ, GLB, STL.
 ///
 /// Vertices on common edges are joined, so that a closed cage gives a closed mesh. PLY and STL (both binary) and GLB hold
-/// 32-bit numbers; OBJ keeps all digits of cages far from the origin, and GLB moves its node there.
+/// 32-bit numbers; OBJ keeps all digits of cages far from the origin, and GLB moves its node there. OBJ and GLB hold the texture
+/// coordinates of the cage; at their seams vertices of GLB are apart.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(crate) struct ExportArgs {
@@ -111,7 +115,8 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
         let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
         let surface = maps.apply(surface, &input.cage, &job.input.file)?;
         let progress = Progress::new(global.quiet, surface.plan().patches.len() as u64, "drawing");
-        let drawing = Drawing { cage: &input.cage, surface: &surface, tessellation, progress };
+        let uv = job.uv(&input.cage, &surface);
+        let drawing = Drawing { cage: &input.cage, surface: &surface, uv, tessellation, progress };
         let path = &job.output.path;
         drawing.export(job.output.format, path).map_err(|error| error.to(path))
     })?;
@@ -120,6 +125,12 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
 }
 
 impl Job {
+    /// Texture coordinates, if there are any and the format holds them, and where their v begins.
+    fn uv(&self, cage: &Cage, surface: &Surface) -> Option<(UvTables, UvOrigin)> {
+        let uv = cage.uv().filter(|_| matches!(self.output.format, Format::Obj | Format::Glb))?;
+        Some((UvTables::new(surface.plan(), uv, |uv| uv), uv_origin(&self.input.file)))
+    }
+
     /// Says so if numbers of the format lie so far apart where the cage is that its shape suffers.
     fn warn_of_coarse_numbers(&self, bounds: Bounds) {
         let is_32_bit = matches!(self.output.format, Format::Ply | Format::Soup | Format::Stl);
@@ -148,6 +159,7 @@ fn spacing(number: f64) -> f64 {
 struct Drawing<'a> {
     cage: &'a Cage,
     surface: &'a Surface,
+    uv: Option<(UvTables, UvOrigin)>,
     tessellation: Tessellation,
     progress: Progress,
 }
@@ -172,11 +184,14 @@ impl Drawing<'_> {
 
     /// All triangles, with one vertex per key.
     fn welded(&self) -> Result<Mesh, WriteError> {
-        let mut welder = Welder::new(*self.surface.space());
+        let plan = self.surface.plan();
+        let mut welder = Welder::new(*self.surface.space(), self.uv.as_ref().map(|&(_, origin)| origin));
         self.capture(|triangle| {
-            let corner = |vertex: &CapturedVertex| {
-                let key = VertexKey::of(self.surface.plan(), vertex);
-                (key, Vec3::from(vertex.position), Vec3::from(vertex.normal))
+            let corner = |vertex: &CapturedVertex| Corner {
+                key: VertexKey::of(plan, vertex),
+                position: vertex.position.into(),
+                normal: vertex.normal.into(),
+                uv: self.uv.as_ref().map_or([0.0; 2], |(uv, _)| uv.at(plan, vertex.patch, vertex.uv)),
             };
             let joined = welder.push([0, 1, 2].map(|i| corner(&triangle[i])));
             joined.ok_or_else(|| Failure::usage("more vertices than 32-bit indices can count; lower the level").into())

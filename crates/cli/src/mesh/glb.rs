@@ -1,11 +1,12 @@
-//! Welded meshes as GLB, the binary form of glTF 2.0: one mesh of one primitive with positions, normals and
-//! 32-bit indices.
+//! Welded meshes as GLB, the binary form of glTF 2.0: one mesh of one primitive with positions, normals, 32-bit indices, and texture
+//! coordinates if there are any. The format has one index for all of these, so there are as many vertices at a place as texture coordinates.
 
 use super::ply::write_floats;
 use super::{Mesh, positive_zeros};
 use glam::{DVec3, Vec3};
-use osculate::CageSpace;
+use osculate::{CageSpace, UvOrigin};
 use serde_json::{Value, json};
+use std::borrow::Cow;
 use std::io::{self, Write};
 
 // Numbers that the format gives names to: component types and buffer targets are those of OpenGL.
@@ -23,6 +24,7 @@ pub(crate) fn write(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     if mesh.triangles.is_empty() {
         return Err(io::Error::other("a GLB file cannot hold an empty mesh"));
     }
+    let mesh = &*cut_at_seams(mesh);
     let (translation, positions) = place(mesh);
     let mut json = serde_json::to_vec(&document(mesh, translation, &positions))?;
     // Chunks are multiples of four bytes; text is padded with spaces.
@@ -45,7 +47,22 @@ pub(crate) fn write(mesh: &Mesh, out: &mut dyn Write) -> io::Result<()> {
     for &normal in &mesh.normals {
         write_floats(out, positive_zeros(unit(normal)).to_array())?;
     }
-    mesh.triangles.iter().flatten().try_for_each(|index| out.write_all(&index.to_le_bytes()))
+    mesh.triangles.iter().flatten().try_for_each(|index| out.write_all(&index.to_le_bytes()))?;
+    let mut uv = mesh.uv.iter().flat_map(|uv| uv.values_from(UvOrigin::Top));
+    uv.try_for_each(|uv| write_floats(out, uv))
+}
+
+/// The mesh with a vertex for each of its texture coordinates.
+fn cut_at_seams(mesh: &Mesh) -> Cow<'_, Mesh> {
+    let Some(uv) = &mesh.uv else { return Cow::Borrowed(mesh) };
+    let of_each = |values: &[Vec3]| uv.vertices.iter().map(|&vertex| values[vertex as usize]).collect();
+    Cow::Owned(Mesh {
+        space: mesh.space,
+        positions: of_each(&mesh.positions),
+        normals: of_each(&mesh.normals),
+        triangles: uv.triangles.clone(),
+        uv: Some(uv.clone()),
+    })
 }
 
 /// A normal as the format wants it, of length 1 even where there is none.
@@ -64,8 +81,12 @@ fn place(mesh: &Mesh) -> (DVec3, Vec<Vec3>) {
 }
 
 /// Bytes of positions, normals and indices: multiples of four all.
-fn binary_bytes(mesh: &Mesh) -> usize {
+fn bytes_before_uv(mesh: &Mesh) -> usize {
     24 * mesh.positions.len() + 12 * mesh.triangles.len()
+}
+
+fn binary_bytes(mesh: &Mesh) -> usize {
+    bytes_before_uv(mesh) + mesh.uv.as_ref().map_or(0, |uv| size_of_val(uv.values.as_slice()))
 }
 
 fn write_sizes<const N: usize>(out: &mut dyn Write, sizes: [usize; N]) -> io::Result<()> {
@@ -81,7 +102,7 @@ fn document(mesh: &Mesh, translation: DVec3, positions: &[Vec3]) -> Value {
         node["translation"] = json!(translation.to_array());
     }
     let view = |offset: usize, length: usize, target: u32| json!({ "buffer": 0, "byteOffset": offset, "byteLength": length, "target": target });
-    json!({
+    let mut document = json!({
         "asset": { "version": "2.0", "generator": concat!("osculate ", env!("CARGO_PKG_VERSION")) },
         "scene": 0,
         "scenes": [{ "nodes": [0] }],
@@ -99,14 +120,23 @@ fn document(mesh: &Mesh, translation: DVec3, positions: &[Vec3]) -> Value {
             { "bufferView": 1, "componentType": FLOAT, "count": vertices, "type": "VEC3" },
             { "bufferView": 2, "componentType": UNSIGNED_INT, "count": 3 * mesh.triangles.len(), "type": "SCALAR" },
         ],
-    })
+    });
+    if mesh.uv.is_some() {
+        document["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = json!(3);
+        let list =
+            |document: &mut Value, key: &str, value| document[key].as_array_mut().expect("made above").push(value);
+        list(&mut document, "bufferViews", view(bytes_before_uv(mesh), 8 * vertices, ARRAY_BUFFER));
+        let accessor = json!({ "bufferView": 3, "componentType": FLOAT, "count": vertices, "type": "VEC2" });
+        list(&mut document, "accessors", accessor);
+    }
+    document
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::mesh::ply::tests::floats;
-    use crate::mesh::tests::square;
+    use crate::mesh::tests::{mapped_square, square};
 
     /// The JSON and binary chunks, with the framing checked.
     fn chunks(file: &[u8]) -> (Value, &[u8]) {
@@ -150,6 +180,23 @@ mod tests {
         assert_eq!(json["nodes"][0]["translation"], json!([1e6, 0.0, 0.1]));
         assert_eq!(floats(&binary[36..48]), [0.0, 1.5, 0.0]);
         assert_eq!(json["accessors"][0]["max"], json!([1.0, 1.5, 0.0]));
+    }
+
+    #[test]
+    fn seams_part_vertices() {
+        let file = written(&mapped_square());
+        let (json, binary) = chunks(&file);
+        assert_eq!(binary.len(), 6 * 24 + 2 * 12 + 6 * 8);
+        assert_eq!(json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"], 3);
+        assert_eq!((&json["accessors"][0]["count"], &json["accessors"][3]["count"]), (&json!(6), &json!(6)));
+        assert_eq!(
+            (&json["bufferViews"][3]["byteOffset"], &json["bufferViews"][3]["byteLength"]),
+            (&json!(168), &json!(48))
+        );
+        // The first vertex a second time, as the second triangle has it.
+        assert_eq!(floats(&binary[36..48]), [10.0, 0.0, -3.0]);
+        assert_eq!(floats(&binary[168 + 16..168 + 32]), [1.0, 0.25, 0.5, 1.0]);
+        assert_eq!(binary[156..168], [3, 0, 0, 0, 4, 0, 0, 0, 5, 0, 0, 0]);
     }
 
     #[test]

@@ -8,8 +8,8 @@ pub(crate) mod stl;
 mod weld;
 
 use glam::{DVec3, Vec3};
-use osculate::CageSpace;
-pub(crate) use weld::Welder;
+use osculate::{CageSpace, UvOrigin};
+pub(crate) use weld::{Corner, Welder};
 
 /// Triangles over shared vertices, counter-clockwise seen from outside.
 #[derive(Clone, Debug, PartialEq)]
@@ -22,12 +22,40 @@ pub(crate) struct Mesh {
     pub(crate) normals: Vec<Vec3>,
     /// Three vertices per triangle.
     pub(crate) triangles: Vec<[u32; 3]>,
+    /// Texture coordinates, if there are any.
+    pub(crate) uv: Option<MeshUv>,
+}
+
+/// Texture coordinates of corners: a vertex on a seam has several.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct MeshUv {
+    /// Where v begins.
+    pub(crate) origin: UvOrigin,
+    /// Texture coordinates, those of each vertex once.
+    pub(crate) values: Vec<[f32; 2]>,
+    /// The vertex that each of them is of.
+    pub(crate) vertices: Vec<u32>,
+    /// Three of them per triangle.
+    pub(crate) triangles: Vec<[u32; 3]>,
+}
+
+impl MeshUv {
+    /// No texture coordinates.
+    pub(crate) fn empty(origin: UvOrigin) -> Self {
+        Self { origin, values: Vec::new(), vertices: Vec::new(), triangles: Vec::new() }
+    }
+
+    /// The texture coordinates where v begins at `origin`, without negative zeros.
+    fn values_from(&self, origin: UvOrigin) -> impl Iterator<Item = [f32; 2]> {
+        let turned = self.origin != origin;
+        self.values.iter().map(move |&[u, v]| [u, if turned { 1.0 - v } else { v }].map(|x| x + 0.0))
+    }
 }
 
 impl Mesh {
     /// A mesh without vertices.
     pub(crate) fn empty(space: CageSpace) -> Self {
-        Self { space, positions: Vec::new(), normals: Vec::new(), triangles: Vec::new() }
+        Self { space, positions: Vec::new(), normals: Vec::new(), triangles: Vec::new(), uv: None }
     }
 
     /// The position of a vertex in the units of the cage.
@@ -57,7 +85,19 @@ mod tests {
             positions: [[0.0, -0.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.5, 0.0], [-0.0, 0.75, 0.0]].map(Vec3::from).to_vec(),
             normals: vec![Vec3::new(-0.0, 0.0, 1.0); 4],
             triangles: vec![[0, 1, 2], [0, 2, 3]],
+            uv: None,
         }
+    }
+
+    /// The same with a seam between the triangles.
+    pub(super) fn mapped_square() -> Mesh {
+        let uv = MeshUv {
+            origin: UvOrigin::Bottom,
+            values: vec![[0.0, 0.0], [1.0, 0.0], [1.0, 0.75], [0.5, 0.0], [0.5, 0.75], [-0.0, 1.0]],
+            vertices: vec![0, 1, 2, 0, 2, 3],
+            triangles: vec![[0, 1, 2], [3, 4, 5]],
+        };
+        Mesh { uv: Some(uv), ..square() }
     }
 
     #[test]

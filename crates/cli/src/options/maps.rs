@@ -127,7 +127,7 @@ impl Maps {
             factor: colors.factor,
             placement: colors.placement,
         });
-        let desc = MapsDesc { origin: origin(file), displacement, coloring };
+        let desc = MapsDesc { origin: uv_origin(file), displacement, coloring };
         surface.with_maps(cage, &desc).map_err(|error| match error {
             EngineError::NoUv => Failure::input(format_args!("{}: {error}", file.display())),
             other => other.into(),
@@ -136,7 +136,7 @@ impl Maps {
 }
 
 /// v runs downwards in glTF files alone.
-fn origin(file: &Path) -> UvOrigin {
+pub(crate) fn uv_origin(file: &Path) -> UvOrigin {
     let extension = file.extension().and_then(|extension| extension.to_str()).unwrap_or_default();
     if ["glb", "gltf"].iter().any(|name| extension.eq_ignore_ascii_case(name)) {
         UvOrigin::Top
@@ -193,7 +193,7 @@ mod tests {
 
     #[test]
     fn v_begins_where_the_format_says() {
-        assert_eq!(origin("a/b.GLB".as_ref()), UvOrigin::Top);
-        assert_eq!(origin("b.obj".as_ref()), UvOrigin::Bottom);
+        assert_eq!(uv_origin("a/b.GLB".as_ref()), UvOrigin::Top);
+        assert_eq!(uv_origin("b.obj".as_ref()), UvOrigin::Bottom);
     }
 }

@@ -16,7 +16,7 @@ pub(crate) use animation::{AnimationArgs, Film, Moment, Motion};
 pub(crate) use camera::CameraArgs;
 pub(crate) use colour::Colour;
 pub(crate) use level::{Level, Pixels};
-pub(crate) use maps::{DisplaceArgs, Maps};
+pub(crate) use maps::{DisplaceArgs, Maps, uv_origin};
 pub(crate) use numbered::NumberedPath;
 pub(crate) use output::{Output, check_apart, check_place};
 pub(crate) use read::ReadArgs;

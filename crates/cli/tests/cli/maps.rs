@@ -1,7 +1,10 @@
 //! Displacement and textures: `--displace`, `--texture`, the shades `textured` and `uv`.
 
 use crate::support::{CAGE, osculate};
+use osculate_cage::Cage;
+use std::collections::BTreeSet;
 use std::fs;
+use std::path::Path;
 use tempfile::{TempDir, tempdir};
 
 /// The cage with texture coordinates that jump at every edge, and a map of heights.
@@ -44,6 +47,67 @@ fn scale_and_bias_are_lengths_of_the_cage() {
     let moved = bounds(&folder, &["--displace", "heights.png", "--displace-scale", "0", "--displace-bias", "10"]);
     assert!(moved[0] > plain[0] + 7.0 && moved[1] < plain[1] + 10.0 + 1e-4, "{plain:?}, {moved:?}");
     assert_eq!(bounds(&folder, &["--displace", "heights.png:0:10"]), moved);
+}
+
+/// The texture coordinates of a file's corners, v upwards.
+fn uv_of(file: &Path) -> BTreeSet<[u32; 2]> {
+    let cage = Cage::read(file).unwrap();
+    let downwards = file.extension().is_some_and(|extension| extension == "glb");
+    let values = cage.uv().expect("texture coordinates").values.iter();
+    values.map(|uv| [uv.x as f32, if downwards { 1.0 - uv.y as f32 } else { uv.y as f32 }].map(f32::to_bits)).collect()
+}
+
+#[test]
+fn exports_have_the_texture_coordinates_of_the_cage() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let export = |input: &str, output: &str, extra: &[&str]| {
+        osculate(folder.path(), &[&["export", input, "-o", output], extra].concat()).exits(0);
+        fs::read_to_string(path(output)).unwrap_or_default()
+    };
+    let lines = |text: &str, start: &str| text.lines().filter(|line| line.starts_with(start)).count();
+    let mut texts = Vec::new();
+    for evaluator in ["tessellator", "compute"] {
+        // One patch per face, and one segment per side: the corners are those of the cage.
+        let text = export("mapped.obj", "out.obj", &["--scheme", "gregory1", "--level", "1", "--evaluator", evaluator]);
+        assert_eq!(uv_of(&path("out.obj")), uv_of(&path("mapped.obj")), "{evaluator}");
+        assert_eq!((lines(&text, "v "), lines(&text, "vt "), lines(&text, "f ")), (6, 10, 4), "{evaluator}");
+        texts.push(export("mapped.obj", "fine.obj", &["--level", "2", "--evaluator", evaluator]));
+        assert!(uv_of(&path("fine.obj")).is_superset(&uv_of(&path("mapped.obj"))), "{evaluator}");
+    }
+    let plain = export("plain.obj", "plain_out.obj", &["--level", "2"]);
+    for text in &texts {
+        assert_eq!(lines(text, "v "), lines(&plain, "v "), "seams leave vertices joined");
+        assert!(lines(text, "vt ") > lines(text, "v "), "seams are kept");
+    }
+    assert_eq!(lines(&plain, "vt "), 0);
+    // What GLB holds is read again as it was written, and so is what is exported from it.
+    export("mapped.obj", "out.glb", &["--scheme", "gregory1", "--level", "1"]);
+    assert_eq!(uv_of(&path("out.glb")), turned(uv_of(&path("mapped.obj"))));
+    export("out.glb", "again.obj", &["--scheme", "gregory1", "--level", "1"]);
+    assert_eq!(uv_of(&path("again.obj")), uv_of(&path("out.glb")));
+}
+
+/// The same after v was turned upside down and back, which costs small ones their last bits.
+fn turned(uv: BTreeSet<[u32; 2]>) -> BTreeSet<[u32; 2]> {
+    uv.into_iter().map(|[u, v]| [u, (1.0 - (1.0 - f32::from_bits(v))).to_bits()]).collect()
+}
+
+/// Without seams each vertex has one pair of texture coordinates, whichever patch it is looked at from.
+#[test]
+fn no_seam_appears_in_an_export() {
+    let folder = tempdir().unwrap();
+    let sheet = "v 0 0 0\nv 1 0 0.3\nv 2 0 0\nv 0 1 0\nv 1 1 0\nv 2 1 1\nvt 0 0\nvt 0.3 0.1\nvt 1 0\nvt 0.1 0.9\nvt 0.45 0.8\nvt 0.7 1\n\
+                 f 1/1 2/2 5/5 4/4\nf 2/2 3/3 6/6\nf 5/5 2/2 6/6\n";
+    fs::write(folder.path().join("sheet.obj"), sheet).unwrap();
+    for scheme in ["gregory1", "gregory2", "stam"] {
+        let arguments =
+            ["export", "sheet.obj", "-o", "out.obj", "--scheme", scheme, "--level", "2.5", "--spacing", "odd"];
+        osculate(folder.path(), &arguments).exits(0);
+        let text = fs::read_to_string(folder.path().join("out.obj")).unwrap();
+        let count = |start: &str| text.lines().filter(|line| line.starts_with(start)).count();
+        assert_eq!(count("v "), count("vt "), "{scheme}");
+    }
 }
 
 #[test]
