@@ -74,7 +74,8 @@ impl Failure {
         Self::new(Kind::Device, message)
     }
 
-    /// Message and hint in a line.
+    /// Message and hint in a line, for the window.
+    #[cfg(feature = "viewer")]
     pub(crate) fn sentence(&self) -> String {
         let hint = self.hint.as_ref().map(|hint| format!("; {hint}"));
         format!("{}{}", self.message, hint.unwrap_or_default())
