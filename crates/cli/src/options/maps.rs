@@ -14,15 +14,17 @@ use std::path::{Path, PathBuf};
 #[command(next_help_heading = "Displacement")]
 pub(crate) struct DisplaceArgs {
     /// Move the surface along its normal by a map of heights in the plane of texture coordinates: the red channel of a PNG,
-    /// JPEG or OpenEXR file. SCALE and BIAS are short for the next two options.
+    /// JPEG or OpenEXR file. The word `material` stands for the displacement of the model's own material, which glTF files may have.
+    /// SCALE and BIAS are short for the next two options.
     #[arg(long, value_name = "MAP[:SCALE[:BIAS]]", value_parser = spec)]
     displace: Option<Spec>,
 
-    /// How far a height of 1 (white) moves the surface, in the cage's units. Default: 2 % of the diagonal of the cage's box.
+    /// How far a height of 1 (white) moves the surface, in the cage's units. Default: that of the material, else 2 % of the
+    /// diagonal of the cage's box.
     #[arg(long, value_name = "LENGTH", requires = "displace", allow_negative_numbers = true, value_parser = number)]
     displace_scale: Option<f64>,
 
-    /// How far the surface is moved everywhere, in the cage's units. Default: 0.
+    /// How far the surface is moved everywhere, in the cage's units. Default: that of the material, else 0.
     #[arg(long, value_name = "LENGTH", requires = "displace", allow_negative_numbers = true, value_parser = number)]
     displace_bias: Option<f64>,
 }
@@ -33,6 +35,9 @@ struct Spec {
     map: PathBuf,
     numbers: Vec<f64>,
 }
+
+/// In the place of a map, the displacement of the model's material.
+const OF_MATERIAL: &str = "material";
 
 /// How far a height of 1 moves by default, as a part of the box's diagonal.
 const DEFAULT_SCALE: f64 = 0.02;
@@ -58,11 +63,18 @@ fn spec(text: &str) -> Result<Spec, String> {
 /// Pictures in memory.
 #[derive(Default)]
 pub(crate) struct Maps {
-    /// Heights, scale and bias.
-    heights: Option<(HeightMap, f64, f64)>,
+    heights: Option<Heights>,
     colors: Option<Colors>,
     /// Whether texture coordinates are needed without either.
     plain: bool,
+}
+
+/// Heights, how far they move, and how they lie.
+struct Heights {
+    map: HeightMap,
+    scale: f64,
+    bias: f64,
+    placement: MapPlacement,
 }
 
 /// Colours, and how they lie.
@@ -76,11 +88,16 @@ impl DisplaceArgs {
     /// Reads the map of heights, if there is one.
     pub(crate) fn load(&self, cage: &Cage) -> Result<Maps, Failure> {
         let Some(Spec { map, numbers }) = &self.displace else { return Ok(Maps::default()) };
-        let default = DEFAULT_SCALE * 2.0 * cage.bounds().half_diagonal();
-        let scale = self.displace_scale.or(numbers.first().copied()).unwrap_or(default);
-        let bias = self.displace_bias.or(numbers.get(1).copied()).unwrap_or(0.0);
-        let heights = HeightMap::read(map).map_err(unreadable)?;
-        Ok(Maps { heights: Some((heights, scale, bias)), ..Maps::default() })
+        let heights = if map == Path::new(OF_MATERIAL) {
+            heights_of(cage.appearance())?
+        } else {
+            let scale = DEFAULT_SCALE * 2.0 * cage.bounds().half_diagonal();
+            let map = HeightMap::read(map).map_err(unreadable)?;
+            Heights { map, scale, bias: 0.0, placement: MapPlacement::default() }
+        };
+        let scale = self.displace_scale.or(numbers.first().copied()).unwrap_or(heights.scale);
+        let bias = self.displace_bias.or(numbers.get(1).copied()).unwrap_or(heights.bias);
+        Ok(Maps { heights: Some(Heights { scale, bias, ..heights }), ..Maps::default() })
     }
 }
 
@@ -116,11 +133,11 @@ impl Maps {
         if self.heights.is_none() && self.colors.is_none() && !self.plain {
             return Ok(surface);
         }
-        let displacement = self.heights.as_ref().map(|(map, scale, bias)| Displacement {
-            map,
-            scale: *scale,
-            bias: *bias,
-            placement: MapPlacement::default(),
+        let displacement = self.heights.as_ref().map(|heights| Displacement {
+            map: &heights.map,
+            scale: heights.scale,
+            bias: heights.bias,
+            placement: heights.placement,
         });
         let coloring = self.colors.as_ref().map(|colors| Coloring {
             map: colors.map.as_ref(),
@@ -149,32 +166,74 @@ fn unreadable(error: MapError) -> Failure {
     Failure::unreadable(error)
 }
 
-/// The colours of the material that has most faces; a surface shows one.
-fn colors_of(appearance: &Appearance) -> Result<Colors, Failure> {
+/// The material that has most faces, of those that have what is looked for if there are any; a surface shows one.
+fn main_material(appearance: &Appearance, has: impl Fn(&Material) -> bool) -> Option<&Material> {
     let faces = |m: usize| appearance.face_materials.iter().filter(|&&material| material as usize == m).count();
-    let order = |&m: &usize| (appearance.materials[m].base_color_texture.is_some(), faces(m), usize::MAX - m);
-    let Some(most) = (0..appearance.materials.len()).max_by_key(order) else {
-        return Err(Failure::usage("the model has no materials to be shown").with_hint("name a picture by --texture"));
-    };
-    if appearance.materials.len() > 1 {
-        let (name, others) = (&appearance.materials[most].name, appearance.materials.len() - 1);
+    let order = |&m: &usize| (has(&appearance.materials[m]), faces(m), usize::MAX - m);
+    (0..appearance.materials.len()).max_by_key(order).map(|m| &appearance.materials[m])
+}
+
+/// Says so where a model has materials that are not shown.
+fn warn_of_others(appearance: &Appearance, Material { name, .. }: &Material) {
+    let others = appearance.materials.len() - 1;
+    if others > 0 {
         tracing::warn!("all faces are shown in the material {name:?}; the model has {others} more");
     }
-    let Material { base_color, base_color_texture, .. } = &appearance.materials[most];
+}
+
+/// The colours of a model's material.
+fn colors_of(appearance: &Appearance) -> Result<Colors, Failure> {
+    let Some(material) = main_material(appearance, |material| material.base_color_texture.is_some()) else {
+        return Err(Failure::usage("the model has no materials to be shown").with_hint("name a picture by --texture"));
+    };
+    warn_of_others(appearance, material);
+    let Material { base_color, base_color_texture, .. } = material;
     let factor = base_color.truncate().to_array();
-    let Some(Texture { image, uv_set, transform, wrap, .. }) = base_color_texture else {
+    let Some(texture) = base_color_texture else {
         return Ok(Colors { map: None, factor, placement: MapPlacement::default() });
     };
-    if *uv_set != 0 {
-        tracing::warn!("the texture is for the texture coordinates {uv_set}; it is shown with the first ones");
-    }
-    let image = &appearance.images[*image as usize];
-    let map = match &image.source {
-        ImageSource::File(path) => ColorMap::read(path),
-        ImageSource::Bytes(bytes) => ColorMap::decode(&image.name, bytes),
+    let map = picture_of(appearance, texture, ColorMap::read, ColorMap::decode)?;
+    Ok(Colors { map: Some(map), factor, placement: placement_of(texture) })
+}
+
+/// The heights of a model's material.
+fn heights_of(appearance: Option<&Appearance>) -> Result<Heights, Failure> {
+    let material =
+        appearance.and_then(|appearance| main_material(appearance, |material| material.displacement.is_some()));
+    let found = appearance.zip(material.and_then(|material| Some((material, material.displacement.as_ref()?))));
+    let Some((appearance, (material, displacement))) = found else {
+        return Err(Failure::usage("the model's materials have no displacement")
+            .with_hint("name a map of heights: --displace MAP"));
     };
-    let placement = MapPlacement { transform: *transform, wrap: *wrap };
-    Ok(Colors { map: Some(map.map_err(unreadable)?), factor, placement })
+    warn_of_others(appearance, material);
+    let map = picture_of(appearance, &displacement.texture, HeightMap::read, HeightMap::decode)?;
+    let (scale, bias) = (displacement.scale.into(), displacement.offset.into());
+    Ok(Heights { map, scale, bias, placement: placement_of(&displacement.texture) })
+}
+
+/// The picture of a texture, from its file or from the bytes in the model.
+fn picture_of<T>(
+    appearance: &Appearance,
+    texture: &Texture,
+    read: impl Fn(&Path) -> Result<T, MapError>,
+    decode: impl Fn(&str, &[u8]) -> Result<T, MapError>,
+) -> Result<T, Failure> {
+    if texture.uv_set != 0 {
+        tracing::warn!(
+            "the texture is for the texture coordinates {}; it is shown with the first ones",
+            texture.uv_set
+        );
+    }
+    let image = &appearance.images[texture.image as usize];
+    let picture = match &image.source {
+        ImageSource::File(path) => read(path),
+        ImageSource::Bytes(bytes) => decode(&image.name, bytes),
+    };
+    picture.map_err(unreadable)
+}
+
+fn placement_of(texture: &Texture) -> MapPlacement {
+    MapPlacement { transform: texture.transform, wrap: texture.wrap }
 }
 
 #[cfg(test)]

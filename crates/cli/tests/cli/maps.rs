@@ -49,6 +49,52 @@ fn scale_and_bias_are_lengths_of_the_cage() {
     assert_eq!(bounds(&folder, &["--displace", "heights.png:0:10"]), moved);
 }
 
+/// What a glTF file says of displacement does what the options would.
+#[test]
+fn materials_displace_as_they_say() {
+    let folder = folder();
+    let export = |input: &str, output: &str, extra: &[&str]| {
+        osculate(folder.path(), &[&["export", input, "-o", output, "--level", "2"], extra].concat()).exits(0);
+        fs::read(folder.path().join(output)).unwrap()
+    };
+    export("mapped.obj", "plain.glb", &["--scheme", "gregory1"]);
+    let material = serde_json::json!({"extensions": {"KHR_materials_displacement": {
+        "displacementGeometryTexture": {"index": 0}, "displacementGeometryFactor": 0.25, "displacementGeometryOffset": -0.125
+    }}});
+    with_material(&folder.path().join("plain.glb"), &folder.path().join("own.glb"), &material);
+    let by_material = export("own.glb", "a.obj", &["--displace", "material"]);
+    assert_eq!(by_material, export("plain.glb", "b.obj", &["--displace", "heights.png:0.25:-0.125"]));
+    assert_ne!(by_material, export("own.glb", "c.obj", &[]));
+    assert_ne!(by_material, export("own.glb", "d.obj", &["--displace", "material:0.5"]));
+    let without = osculate(folder.path(), &["export", "plain.glb", "-o", "e.obj", "--displace", "material"]);
+    without.fails(2, "no displacement");
+}
+
+/// Writes a GLB file again with a material for its one primitive, whose texture 0 is `heights.png`.
+fn with_material(from: &Path, to: &Path, material: &serde_json::Value) {
+    let file = fs::read(from).unwrap();
+    let end = 20 + u32::from_le_bytes(file[12..16].try_into().unwrap()) as usize;
+    let mut json: serde_json::Value = serde_json::from_slice(&file[20..end]).unwrap();
+    json["images"] = serde_json::json!([{"uri": "heights.png"}]);
+    json["textures"] = serde_json::json!([{"source": 0}]);
+    json["extensionsUsed"] = serde_json::json!(["KHR_materials_displacement"]);
+    json["materials"] = serde_json::json!([material]);
+    json["meshes"][0]["primitives"][0]["material"] = 0.into();
+    let mut text = serde_json::to_vec(&json).unwrap();
+    text.resize(text.len().next_multiple_of(4), b' ');
+    let size = |n: usize| (n as u32).to_le_bytes();
+    let whole = [
+        &b"glTF"[..],
+        &size(2),
+        &size(20 + text.len() + file.len() - end),
+        &size(text.len()),
+        b"JSON",
+        &text,
+        &file[end..],
+    ];
+    fs::write(to, whole.concat()).unwrap();
+}
+
 /// The texture coordinates of a file's corners, v upwards.
 fn uv_of(file: &Path) -> BTreeSet<[u32; 2]> {
     let cage = Cage::read(file).unwrap();
