@@ -38,13 +38,21 @@ void write_vertex() {
     point = displaced_point(patch_id, uv, inner, point);
 #endif
     gl_Position = clip_position(point.position);
-    out_position = point.position;
     out_normal = point.normal;
-    out_patch = patch_id;
 #ifdef CAPTURE
+    out_position = point.position;
     out_uv = uv;
+    out_patch = patch_id;
 #else
-    out_measure = shade_measure(patch_id, uv, inner, vec2(gl_TessLevelInner[0], gl_TessLevelInner[1]));
+    if (shade_sees_position()) {
+        out_position = point.position;
+    }
+    if (shade_sees_measure()) {
+        out_measure = shade_measure(patch_id, uv, inner, vec2(gl_TessLevelInner[0], gl_TessLevelInner[1]));
+    }
+    if (shade_sees_patch()) {
+        out_patch = patch_id;
+    }
 #endif
 }
 

@@ -41,6 +41,20 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
 // SHADE_*
 layout(constant_id = SPEC_SHADE) const uint SHADE = SHADE_NONE;
 
+// What fragments in this shade look at beside normals. Stages before write nothing else: on devices that keep vertices in memory each output has its price.
+bool shade_sees_position() {
+    return SHADE != SHADE_PEER && SHADE != SHADE_WIREFRAME;
+}
+
+bool shade_sees_measure() {
+    return SHADE == SHADE_PATCHES || SHADE == SHADE_VALENCE || SHADE == SHADE_WIREFRAME || SHADE == SHADE_CURVATURE || SHADE == SHADE_GAUSSIAN
+        || SHADE == SHADE_FACTORS || SHADE == SHADE_DIFFERENCE || SHADE == SHADE_TEXTURED || SHADE == SHADE_UV;
+}
+
+bool shade_sees_patch() {
+    return SHADE == SHADE_PATCHES || SHADE == SHADE_VALENCE;
+}
+
 // The one clip-space transform: positions equal bit for bit stay equal.
 vec4 clip_position(vec3 p) {
     mat4 m = frame.clip_from_cage;

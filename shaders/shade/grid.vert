@@ -18,9 +18,16 @@ vec3 load_vector(uint at) {
 
 void main() {
     uint at = GRID_VERTEX_WORDS * uint(gl_VertexIndex);
-    out_position = load_vector(at);
+    vec3 position = load_vector(at);
+    gl_Position = clip_position(position);
     out_normal = load_vector(at + 3u);
-    out_measure = vec2(uintBitsToFloat(grid_vertices[at + 6u]), uintBitsToFloat(grid_vertices[at + 7u]));
-    out_patch = grid_vertices[at + 8u];
-    gl_Position = clip_position(out_position);
+    if (shade_sees_position()) {
+        out_position = position;
+    }
+    if (shade_sees_measure()) {
+        out_measure = vec2(uintBitsToFloat(grid_vertices[at + 6u]), uintBitsToFloat(grid_vertices[at + 7u]));
+    }
+    if (shade_sees_patch()) {
+        out_patch = grid_vertices[at + 8u];
+    }
 }
