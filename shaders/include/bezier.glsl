@@ -57,23 +57,36 @@ struct PatchPoint {
     vec3 dv;
 };
 
-// Bicubic Bezier patch, point i + 4 j with i along u.
-PatchPoint bicubic_point(vec3 b[16], vec2 uv) {
-    vec4 bu = bernstein3(uv.x);
-    vec3 qu = bernstein2(uv.x);
-    vec4 bv = bernstein3(uv.y);
-    vec3 qv = bernstein2(uv.y);
+// A bicubic Bezier patch at a fixed u: the control points of the curve along v, and those of its derivative by u over 3.
+struct BicubicColumn {
     vec3 row[4];
     vec3 slope[4];
+};
+
+// Of the patch with point i + 4 j, i along u.
+BicubicColumn bicubic_column(vec3 b[16], float u) {
+    vec4 bu = bernstein3(u);
+    vec3 qu = bernstein2(u);
+    BicubicColumn column;
     for (int j = 0; j < 4; ++j) {
-        row[j] = combine4(bu, b[4 * j], b[4 * j + 1], b[4 * j + 2], b[4 * j + 3]);
-        slope[j] = combine_differences(qu, b[4 * j], b[4 * j + 1], b[4 * j + 2], b[4 * j + 3]);
+        column.row[j] = combine4(bu, b[4 * j], b[4 * j + 1], b[4 * j + 2], b[4 * j + 3]);
+        column.slope[j] = combine_differences(qu, b[4 * j], b[4 * j + 1], b[4 * j + 2], b[4 * j + 3]);
     }
+    return column;
+}
+
+PatchPoint bicubic_column_point(BicubicColumn column, float v) {
+    vec4 bv = bernstein3(v);
+    vec3 qv = bernstein2(v);
     precise PatchPoint r;
-    r.position = combine4(bv, row[0], row[1], row[2], row[3]);
-    r.du = 3.0 * combine4(bv, slope[0], slope[1], slope[2], slope[3]);
-    r.dv = 3.0 * combine_differences(qv, row[0], row[1], row[2], row[3]);
+    r.position = combine4(bv, column.row[0], column.row[1], column.row[2], column.row[3]);
+    r.du = 3.0 * combine4(bv, column.slope[0], column.slope[1], column.slope[2], column.slope[3]);
+    r.dv = 3.0 * combine_differences(qv, column.row[0], column.row[1], column.row[2], column.row[3]);
     return r;
+}
+
+PatchPoint bicubic_point(vec3 b[16], vec2 uv) {
+    return bicubic_column_point(bicubic_column(b, uv.x), uv.y);
 }
 
 #endif

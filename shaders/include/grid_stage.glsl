@@ -1,5 +1,5 @@
 // The compute evaluator's counterpart of evaluation_stage.glsl: one workgroup per patch. Its threads make the control points once, by the basis of the control
-// stage, then share the patch's vertices. A kernel includes this, its grid, its basis and its form. Define CONTROL_POINTS, the most that are made here, before
+// stage, then share the patch's vertices: those inside, and those on the border if their shade takes the patch's own formula. A kernel includes this, its grid, its basis and its form. Define CONTROL_POINTS, the most that are made here, before
 // the include.
 #ifndef GRID_STAGE_GLSL
 #define GRID_STAGE_GLSL
@@ -9,14 +9,9 @@
 #include "coefficients.glsl"
 #include "bases/net.glsl"
 #include "forms/form.glsl"
-#include "measure.glsl"
-#ifdef MAPPED
-#include "displacement.glsl"
-#endif
+#include "grid_store.glsl"
 
 layout(local_size_x = GRID_GROUP_SIZE, local_size_x_id = SPEC_GRID_GROUP) in;
-
-layout(std430, set = 0, binding = BINDING_GRID_VERTICES) writeonly buffer GridVertices { uint grid_vertices[]; };
 
 shared vec3 shared_control[CONTROL_POINTS];
 
@@ -68,26 +63,11 @@ void make_control_points() {
 }
 #endif
 
-void store_vector(uint at, vec3 v) {
-    grid_vertices[at] = floatBitsToUint(v.x);
-    grid_vertices[at + 1u] = floatBitsToUint(v.y);
-    grid_vertices[at + 2u] = floatBitsToUint(v.z);
-}
-
 // Stores the vertex with that number at (u,v), displaced if the surface is. `inner` is for that, and for what is measured.
 void store_vertex(uint number, vec2 uv, SurfacePoint point, InnerPoint inner) {
     uint id = grid.patch_id;
-#ifdef MAPPED
-    point = displaced_point(id, uv, inner, point);
-#endif
     vec2 segments = vec2(rate_segments(grid.inner_rate[0]), rate_segments(grid.inner_rate[1]));
-    vec2 measure = SHADE == SHADE_NONE ? uv : shade_measure(id, uv, inner, segments);
-    uint at = GRID_VERTEX_WORDS * number;
-    store_vector(at, point.position);
-    store_vector(at + 3u, point.normal);
-    grid_vertices[at + 6u] = floatBitsToUint(measure.x);
-    grid_vertices[at + 7u] = floatBitsToUint(measure.y);
-    grid_vertices[at + 8u] = id;
+    store_grid_vertex(number, id, grid_point(id, uv, inner, point), shade_measure(id, uv, inner, segments));
 }
 
 // Which vertex of the patch a thread is at.
@@ -123,9 +103,12 @@ void write_patch() {
     }
     grid = grid_patches[kernel.first + index];
     make_control_points();
+    // Elsewhere the border is made without control points: see border_stage.glsl.
     uint border = 0u;
-    for (uint side = 0u; side < side_count(); ++side) {
-        border += rate_segments(grid.side_rate[side]);
+    if (shade_measures_patch()) {
+        for (uint side = 0u; side < side_count(); ++side) {
+            border += rate_segments(grid.side_rate[side]);
+        }
     }
     // Border and inside are loops of their own: where lanes go through both branches of a condition, each vertex would be evaluated both ways.
     for (uint i = gl_LocalInvocationIndex; i < border; i += gl_WorkGroupSize.x) {

@@ -26,8 +26,22 @@ vec2 shade_off_corner(vec2 uv, vec2 segments) {
     return corner_of(uv) != 4u ? clamp(uv, inside, 1.0 - inside) : uv;
 }
 
-// Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Textured: texture coordinates. Factors: the same as others,
-// with the segments across the patch. Others: what patches are outlined by.
+// Whether the shade measures what follows from the whole patch, its formula or how it is divided, on its border too.
+bool shade_measures_patch() {
+    return SHADE == SHADE_CURVATURE || SHADE == SHADE_GAUSSIAN || SHADE == SHADE_WIREFRAME || SHADE == SHADE_FACTORS;
+}
+
+// What the other shades measure, which follows from the place alone. Textured: texture coordinates. None: (u,v). Others: what patches are outlined by.
+vec2 shade_place(uint id, vec2 uv) {
+#ifdef MAPPED
+    if (SHADE == SHADE_TEXTURED || SHADE == SHADE_UV) {
+        return patch_uv_at(id, uv);
+    }
+#endif
+    return SHADE == SHADE_NONE ? uv : shade_outline(uv);
+}
+
+// Curvature: (mean, Gaussian). Wireframe: width of the triangles in pixels. Factors: what patches are outlined by, with the segments across the patch.
 vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
     if (SHADE == SHADE_CURVATURE || SHADE == SHADE_GAUSSIAN) {
         return shade_curvature(id, shade_off_corner(uv, segments));
@@ -40,12 +54,7 @@ vec2 shade_measure(uint id, vec2 uv, InnerPoint p, vec2 segments) {
     if (SHADE == SHADE_FACTORS) {
         return shade_outline(uv) + vec2(shade_pack_factor(shade_segments(segments)), 0.0);
     }
-#ifdef MAPPED
-    if (SHADE == SHADE_TEXTURED || SHADE == SHADE_UV) {
-        return patch_uv_at(id, uv);
-    }
-#endif
-    return shade_outline(uv);
+    return shade_place(id, uv);
 }
 
 #endif

@@ -42,16 +42,33 @@ SurfacePoint vertex_record_point(uint vertex) {
         vec3(vertex_records[at + 3u], vertex_records[at + 4u], vertex_records[at + 5u]));
 }
 
+// An edge record at hand: the control points of C and of D.
+struct EdgeRecord {
+    vec3 curve[4];
+    vec3 cross_field[4];
+};
+
+EdgeRecord load_edge_record(uint edge) {
+    EdgeRecord r;
+    for (uint i = 0u; i < 4u; ++i) {
+        r.curve[i] = edge_record_point(edge, i);
+        r.cross_field[i] = edge_record_point(edge, 4u + i);
+    }
+    return r;
+}
+
 // The point of an edge record at t: position C(t), normal along C'(t) x D(t).
-SurfacePoint edge_record_at(uint edge, float t) {
-    vec3 c0 = edge_record_point(edge, 0u);
-    vec3 c1 = edge_record_point(edge, 1u);
-    vec3 c2 = edge_record_point(edge, 2u);
-    vec3 c3 = edge_record_point(edge, 3u);
+SurfacePoint edge_point(EdgeRecord edge, float t) {
     vec4 b = bernstein3(t);
-    vec3 tangent = combine_differences(bernstein2(t), c0, c1, c2, c3);
-    vec3 cross_field = combine4(b, edge_record_point(edge, 4u), edge_record_point(edge, 5u), edge_record_point(edge, 6u), edge_record_point(edge, 7u));
-    return SurfacePoint(combine4(b, c0, c1, c2, c3), unit_or_zero(cross_product(tangent, cross_field)));
+    vec3 c[4] = edge.curve;
+    vec3 d[4] = edge.cross_field;
+    vec3 tangent = combine_differences(bernstein2(t), c[0], c[1], c[2], c[3]);
+    vec3 cross_field = combine4(b, d[0], d[1], d[2], d[3]);
+    return SurfacePoint(combine4(b, c[0], c[1], c[2], c[3]), unit_or_zero(cross_product(tangent, cross_field)));
+}
+
+SurfacePoint edge_record_at(uint edge, float t) {
+    return edge_point(load_edge_record(edge), t);
 }
 
 #endif

@@ -23,6 +23,9 @@ pub struct EngineDesc {
     pub patches_per_draw: Option<u32>,
     /// Most vertices that the compute evaluator makes at once; `None` takes what fits the device and a moderate buffer.
     pub grid_vertices: Option<u32>,
+    /// Whether the compute evaluator gives the inside of a patch to one thread, where there is a kernel for that, rather than to a workgroup; `None` takes what
+    /// suits the device. The vertices are the same.
+    pub grid_lanes: Option<bool>,
     /// Folder in which the driver's memory of pipelines is kept from run to run, a file per device. What is damaged or was
     /// written by another driver is ignored, and several processes may use it at once; nothing that goes wrong with it is an
     /// error. `None` keeps nothing.
@@ -75,6 +78,13 @@ impl Engine {
     /// llvmpipe runs a workgroup on one processor, its threads in vectors of eight. Each vector reads the patch anew, so one is best.
     pub(crate) fn grid_group(&self) -> u32 {
         if self.device().info().is_llvmpipe { 8 } else { constant::GRID_GROUP_SIZE }
+    }
+
+    /// Whether the compute evaluator gives the inside of a patch to one thread rather than to a workgroup, where there is a kernel for that.
+    ///
+    /// On llvmpipe threads are lanes of a vector, and nothing is gained by sharing control points among them.
+    pub(crate) fn grid_lanes(&self) -> bool {
+        self.desc().grid_lanes.unwrap_or(self.device().info().is_llvmpipe)
     }
 
     /// Most patches of one draw with so many segments along an edge.

@@ -18,7 +18,7 @@ use crate::{CapturedVertex, EngineError, Factors, Shade, Surface, Tessellation};
 /// Most bytes of vertices made at once, unless the device allows less.
 const CHUNK_BYTES: u64 = 64 << 20;
 
-/// The kernel of a form, for surfaces with texture coordinates or without.
+/// The kernel that evaluates patches of a form, a workgroup each: their insides, and their borders where those are measured by the patch's own formula.
 fn kernel(form: PatchForm, mapped: bool) -> &'static str {
     match (form, mapped) {
         (PatchForm::Bicubic, false) => "evaluate/bicubic.comp",
@@ -32,6 +32,61 @@ fn kernel(form: PatchForm, mapped: bool) -> &'static str {
         (PatchForm::Biseptic, true) => "evaluate/biseptic.comp#mapped",
         (PatchForm::Triangle, true) => "evaluate/triangle.comp#mapped",
     }
+}
+
+/// The kernel that evaluates insides of patches of a form, a thread each, if there is one.
+fn lane_kernel(form: PatchForm, mapped: bool) -> Option<&'static str> {
+    match (form, mapped) {
+        (PatchForm::Bicubic, false) => Some("evaluate/bicubic_lanes.comp"),
+        (PatchForm::Gregory, false) => Some("evaluate/gregory_lanes.comp"),
+        (PatchForm::Bicubic, true) => Some("evaluate/bicubic_lanes.comp#mapped"),
+        (PatchForm::Gregory, true) => Some("evaluate/gregory_lanes.comp#mapped"),
+        (PatchForm::Stam | PatchForm::Biseptic | PatchForm::Triangle, _) => None,
+    }
+}
+
+/// The kernel that evaluates borders of patches of a form from records alone, a thread for each corner and side.
+fn border_kernel(form: PatchForm, mapped: bool) -> &'static str {
+    match (form, mapped) {
+        (PatchForm::Bicubic | PatchForm::Gregory, false) => "evaluate/border_quad.comp",
+        (PatchForm::Stam, false) => "evaluate/border_stam.comp",
+        (PatchForm::Biseptic, false) => "evaluate/border_biseptic.comp",
+        (PatchForm::Triangle, false) => "evaluate/border_triangle.comp",
+        (PatchForm::Bicubic | PatchForm::Gregory, true) => "evaluate/border_quad.comp#mapped",
+        (PatchForm::Stam, true) => "evaluate/border_stam.comp#mapped",
+        (PatchForm::Biseptic, true) => "evaluate/border_biseptic.comp#mapped",
+        (PatchForm::Triangle, true) => "evaluate/border_triangle.comp#mapped",
+    }
+}
+
+/// What evaluates a patch.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Share {
+    Workgroup,
+    Thread,
+    /// A thread for each corner and the side that leaves it.
+    FourThreads,
+}
+
+/// One of the kernels that evaluate patches of a form.
+#[derive(Clone, Copy)]
+struct GridKernel {
+    shader: &'static str,
+    share: Share,
+    /// Whether it makes inner vertices alone.
+    inside: bool,
+}
+
+/// The kernels that evaluate patches of a form. Where places are all that is measured, borders need no control points, and have a kernel of their own.
+///
+/// `lanes`: threads are lanes of a vector, so that a thread for each patch is better than a workgroup.
+fn grid_kernels(form: PatchForm, mapped: bool, measure: Measured, lanes: bool) -> impl Iterator<Item = GridKernel> {
+    let apart = !measure.takes_patch();
+    let border = GridKernel { shader: border_kernel(form, mapped), share: Share::FourThreads, inside: false };
+    let whole = GridKernel { shader: kernel(form, mapped), share: Share::Workgroup, inside: apart };
+    let lane = lane_kernel(form, mapped).filter(|_| lanes && apart);
+    let inside = lane.map_or(whole, |shader| GridKernel { shader, share: Share::Thread, inside: true });
+    apart.then_some(border).into_iter().chain([inside])
 }
 
 /// What vertices hold beside position and normal: few shades differ there, so that kernels do not multiply by shades.
@@ -62,6 +117,12 @@ impl Measured {
             Some(Shade::Textured | Shade::Uv) => Self::Texture,
             Some(_) => Self::Outline,
         }
+    }
+
+    /// Whether it follows from the whole patch, its formula or how it is divided, on its border too (`shade_measures_patch` in
+    /// shaders/include/measure.glsl).
+    fn takes_patch(self) -> bool {
+        matches!(self, Self::Curvature | Self::Width | Self::Segments)
     }
 
     /// A shade that measures this.
@@ -109,6 +170,8 @@ pub(crate) struct GridChunk {
     pub(crate) patches: Range<u32>,
     /// Three vertices for each triangle.
     pub(crate) indices: Vec<u32>,
+    /// Whether any patch has vertices inside.
+    has_inside: bool,
     bindings: Bindings,
 }
 
@@ -185,34 +248,59 @@ impl<'a> Grids<'a> {
             .clone()
             .with(binding::GRID_PATCHES, &upload(self.surface, "grid patches", &chunk.patches)?)
             .with(binding::GRID_VERTICES, &vertices);
-        Ok(GridChunk { vertices, patches: chunk.patch_range(), indices: chunk.indices, bindings })
+        let (patches, has_inside) = (chunk.patch_range(), chunk.has_inside);
+        Ok(GridChunk { vertices, patches, indices: chunk.indices, has_inside, bindings })
     }
 
-    /// Adds the kernels that write a chunk's vertices, one for each patch list that it has patches of.
+    /// Adds the kernels that write a chunk's vertices.
     pub(crate) fn record(
         &self,
         chunk: &GridChunk,
         frame: &Buffer,
         recording: &mut Recording,
     ) -> Result<(), EngineError> {
+        let bindings = chunk.bindings.clone().with(binding::FRAME, frame);
+        for (kernel, patches) in self.kernels(chunk) {
+            let (count, first) = (patches.len() as u32, patches.start - chunk.patches.start);
+            recording.compute(self.pass(kernel, &bindings, KernelPush { count, first, old_distance: 0 })?);
+        }
+        Ok(())
+    }
+
+    /// The kernels of a chunk and their patches. Lists that follow each other go through the same kernel at once.
+    fn kernels(&self, chunk: &GridChunk) -> Vec<(GridKernel, Range<u32>)> {
+        let mut all: Vec<(GridKernel, Range<u32>)> = Vec::new();
         for list in &self.surface.plan().lists {
             let first = list.first_patch.max(chunk.patches.start);
             let end = (list.first_patch + list.count).min(chunk.patches.end);
             if first >= end {
                 continue;
             }
-            let push = KernelPush { count: end - first, first: first - chunk.patches.start, old_distance: 0 };
-            let name = kernel(list.kind.form(), self.surface.is_mapped());
-            recording.compute(ComputePass {
-                name: name.to_owned(),
-                pipeline: self.surface.engine().kernel(KernelKey { shader: name, measure: self.measure })?,
-                bindings: chunk.bindings.clone().with(binding::FRAME, frame),
-                push: bytes_of(&push).to_vec(),
-                // One workgroup for each patch.
-                groups: fold(push.count),
-            });
+            let kernels = self.surface.grid_kernels_of(list.kind.form(), self.measure);
+            for kernel in kernels.filter(|kernel| chunk.has_inside || !kernel.inside) {
+                match all.iter_mut().find(|(known, range)| known.shader == kernel.shader && range.end == first) {
+                    Some((_, range)) => range.end = end,
+                    None => all.push((kernel, first..end)),
+                }
+            }
         }
-        Ok(())
+        all
+    }
+
+    fn pass(&self, kernel: GridKernel, bindings: &Bindings, push: KernelPush) -> Result<ComputePass, EngineError> {
+        let engine = self.surface.engine();
+        let groups = match kernel.share {
+            Share::Workgroup => push.count,
+            Share::Thread => push.count.div_ceil(engine.grid_group()),
+            Share::FourThreads => (4 * push.count).div_ceil(constant::GROUP_SIZE),
+        };
+        Ok(ComputePass {
+            name: kernel.shader.to_owned(),
+            pipeline: engine.kernel(KernelKey { shader: kernel.shader, measure: self.measure })?,
+            bindings: bindings.clone(),
+            push: bytes_of(&push).to_vec(),
+            groups: fold(groups),
+        })
     }
 
     /// Evaluates a chunk and reads its vertices.
@@ -249,8 +337,14 @@ fn upload<T: NoUninit>(surface: &Surface, name: &str, data: &[T]) -> Result<Buff
 impl Surface {
     /// The kernels that its patches need for pictures in a shade, or for none.
     pub(crate) fn grid_kernels(&self, shade: Option<Shade>) -> impl Iterator<Item = KernelKey> {
-        let (measure, mapped) = (Measured::of(shade), self.is_mapped());
-        self.plan().lists.iter().map(move |list| KernelKey { shader: kernel(list.kind.form(), mapped), measure })
+        let measure = Measured::of(shade);
+        let kernels = move |form| self.grid_kernels_of(form, measure);
+        let shaders = self.plan().lists.iter().flat_map(move |list| kernels(list.kind.form()));
+        shaders.map(move |kernel| KernelKey { shader: kernel.shader, measure })
+    }
+
+    fn grid_kernels_of(&self, form: PatchForm, measure: Measured) -> impl Iterator<Item = GridKernel> + use<> {
+        grid_kernels(form, self.is_mapped(), measure, self.engine().grid_lanes())
     }
 
     /// How the edges are divided.

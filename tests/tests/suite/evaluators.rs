@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use osculate::{
-    Cage, Camera, CapturedVertex, CheckReport, EngineDesc, Evaluator, Factors, RenderDesc, Scheme, Shade, Spacing,
+    Cage, Camera, CapturedVertex, CheckReport, Engine, EngineDesc, Evaluator, Factors, RenderDesc, Scheme, Shade, Spacing,
     Surface, Tessellation, check,
 };
 use osculate_compare::Picture;
@@ -41,6 +41,22 @@ fn same(a: &[f32], b: &[f32], exact: bool) -> bool {
         true => a.to_bits() == b.to_bits() || (a.abs() < f32::MIN_POSITIVE && b.abs() < f32::MIN_POSITIVE),
         false => (a - b).abs() < 1e-5,
     })
+}
+
+#[test]
+fn a_thread_gives_the_bits_of_a_workgroup() {
+    for (name, scheme) in [("twohole", Scheme::Gregory2), ("dragon", Scheme::Gregory1), ("star12", Scheme::Gregory2)] {
+        let [by_groups, by_lanes] = [false, true].map(|lanes| {
+            let gpu = gpu_with(EngineDesc { grid_lanes: Some(lanes), ..EngineDesc::default() });
+            let surface = surface_of(&gpu, &zoo::shipped(name), scheme, None).unwrap();
+            captured(&surface, &in_compute(3.4, Spacing::Odd))
+        });
+        let exact = gpu().device().info().is_llvmpipe;
+        assert_eq!(by_groups.len(), by_lanes.len());
+        for (a, b) in by_groups.iter().zip(&by_lanes) {
+            assert!(a.patch == b.patch && same(&values(a), &values(b), exact), "{name}: {a:?}, {b:?}");
+        }
+    }
 }
 
 /// Powers of two are levels whose parameters tessellators hit exactly, so that both evaluators have the same vertices.
@@ -242,16 +258,19 @@ fn the_edges_of_grids_are_drawn() {
 
 /// Checks grids with a changed shader: `noticed` is what the check must have seen.
 fn sabotaged(mutation: Mutation, noticed: impl Fn(&CheckReport) -> bool) {
-    let gpu = gpu_with_shaders(mutated(&[mutation]));
+    check_sabotaged(&gpu_with_shaders(mutated(&[mutation])), noticed);
+}
+
+fn check_sabotaged(gpu: &Engine, noticed: impl Fn(&CheckReport) -> bool) {
     for name in ["twohole", "dragon"] {
-        let surface = surface(&gpu, &zoo::shipped(name), None).unwrap();
+        let surface = surface(gpu, &zoo::shipped(name), None).unwrap();
         let report = check(&surface, &in_compute(5.0, Spacing::Equal)).unwrap();
         assert!(!report.is_watertight() && noticed(&report), "{name}: the check did not notice: {report:?}");
     }
 }
 
-fn in_stage(from: &'static str, to: &'static str) -> Mutation {
-    Mutation { path: "include/grid_stage.glsl", from, to }
+fn in_border_stage(from: &'static str, to: &'static str) -> Mutation {
+    Mutation { path: "include/border_stage.glsl", from, to }
 }
 
 #[test]
@@ -272,20 +291,36 @@ fn vertices_at_the_wrong_parameter_of_an_edge_are_noticed() {
 
 #[test]
 fn edges_numbered_in_the_wrong_direction_are_noticed() {
-    sabotaged(in_stage("(flipped ? last - i : i)", "(flipped ? i : last - i)"), |report| report.inverted > 0);
-    sabotaged(in_stage("(flipped ? last - i : i)", "i"), |report| report.inverted > 0 && report.split_positions > 0);
+    sabotaged(in_border_stage("(flipped ? last - i : i)", "(flipped ? i : last - i)"), |report| report.inverted > 0);
+    sabotaged(in_border_stage("(flipped ? last - i : i)", "i"), |report| {
+        report.inverted > 0 && report.split_positions > 0
+    });
+}
+
+/// Which of the two stages makes inner vertices depends on the device.
+fn in_inner_stages(group: [&'static str; 2], lane: [&'static str; 2]) {
+    let mutations = [("include/grid_stage.glsl", group), ("include/lane_stage.glsl", lane)];
+    for (lanes, (path, [from, to])) in [false, true].into_iter().zip(mutations) {
+        let shaders = mutated(&[Mutation { path, from, to }]);
+        let gpu = gpu_with(EngineDesc { shaders, grid_lanes: Some(lanes), ..EngineDesc::default() });
+        check_sabotaged(&gpu, |report| report.inverted > 0 || report.wrong_patches > 0);
+    }
 }
 
 #[test]
 fn vertices_in_the_wrong_place_are_noticed() {
-    let swapped = in_stage("store_vertex(grid.first_inner + i, uv,", "store_vertex(grid.first_inner + (i ^ 1u), uv,");
-    sabotaged(swapped, |report| report.inverted > 0);
+    in_inner_stages(
+        ["store_vertex(grid.first_inner + i, uv,", "store_vertex(grid.first_inner + (i ^ 1u), uv,"],
+        ["first + j * width + i,", "first + j * width + (i ^ 1u),"],
+    );
 }
 
 #[test]
 fn patches_that_are_left_out_are_noticed() {
-    let short = in_stage("if (index >= kernel.count) {", "if (index + 1u >= kernel.count) {");
-    sabotaged(short, |report| report.wrong_patches > 0);
+    in_inner_stages(
+        ["if (index >= kernel.count) {", "if (index + 1u >= kernel.count) {"],
+        ["if (thread >= kernel.count) {", "if (thread + 1u >= kernel.count) {"],
+    );
 }
 
 #[test]

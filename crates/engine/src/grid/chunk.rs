@@ -21,6 +21,8 @@ pub(crate) struct Chunk {
     pub(crate) vertex_count: u32,
     /// Three vertices for each triangle, patch after patch.
     pub(crate) indices: Vec<u32>,
+    /// Whether any patch has vertices inside.
+    pub(crate) has_inside: bool,
 }
 
 /// Patches whose triangles one task writes.
@@ -34,7 +36,8 @@ impl Chunk {
         let numbered = patches.zip(records.iter().zip(&grids));
         let patches: Vec<GridPatch> =
             numbered.map(|(patch, (record, grid))| numbering.number(desc, patch, record, grid)).collect();
-        Self { vertex_count: numbering.next, indices: write_indices(records, &grids, &patches), patches }
+        let has_inside = grids.iter().any(|grid| grid.pattern.inner_count() > 0);
+        Self { vertex_count: numbering.next, indices: write_indices(records, &grids, &patches), has_inside, patches }
     }
 
     /// Global ids of its patches.
