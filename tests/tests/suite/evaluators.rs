@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 use osculate::{
-    Cage, Camera, CapturedVertex, CheckReport, Engine, EngineDesc, Evaluator, Factors, RenderDesc, Scheme, Shade, Spacing,
-    Surface, Tessellation, check,
+    Cage, Camera, CapturedVertex, CheckReport, Engine, EngineDesc, Evaluator, Factors, RenderDesc, Scheme, Shade,
+    Spacing, Surface, Tessellation, check,
 };
 use osculate_compare::Picture;
 use osculate_shaders::layout::SampleRequest;
