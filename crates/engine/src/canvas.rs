@@ -42,7 +42,7 @@ impl<'a> Canvas<'a> {
 
     /// Draws a surface, and its cage if that is asked for.
     pub(crate) fn add(&mut self, surface: &Surface) -> Result<(), EngineError> {
-        if self.desc.tessellation.renders_in_compute() {
+        if self.desc.tessellation.renders_in_compute(self.engine.device()) {
             self.add_grids(surface)?;
         } else {
             let frame = self.upload(self.look().frame(surface))?;

@@ -73,7 +73,10 @@ impl Surface {
     /// Whether compute kernels hand out the triangles.
     pub(crate) fn captures_in_compute(&self, tessellation: &Tessellation) -> bool {
         match tessellation.evaluator {
-            Evaluator::Auto => !self.engine().device().info().features.transform_feedback,
+            Evaluator::Auto => {
+                let has = self.engine().device().info().features;
+                !(has.transform_feedback && has.tessellation)
+            }
             Evaluator::Tessellator => false,
             Evaluator::Compute => true,
         }
@@ -86,6 +89,7 @@ impl Surface {
     ) -> Result<(), E> {
         let segments = tessellation.max_segments()?;
         let device = self.engine().device();
+        tessellation.check_evaluator(device)?;
         self.require_capture()?;
         let division = Division::of(tessellation);
         self.engine().prepare(NO_KERNELS, self.pipelines(division, Output::Capture))?;

@@ -34,8 +34,9 @@ pub(crate) struct Look<'a> {
 }
 
 impl Look<'_> {
-    /// Fails if the device cannot draw the shade.
+    /// Fails if the device cannot draw the shade, or has not what is to tessellate.
     pub(crate) fn check(&self, engine: &Engine) -> Result<(), EngineError> {
+        self.tessellation.check_evaluator(engine.device())?;
         let info = engine.device().info();
         if self.shade != Shade::Wireframe || info.features.wireframe {
             return Ok(());
@@ -55,7 +56,7 @@ impl Look<'_> {
         let (target, tessellation) = (self.target, self.tessellation);
         let cage = self.cage.then_some([false, true].map(|hidden| PipelineKey::Cage { target, hidden }));
         let cage = cage.into_iter().flatten();
-        if tessellation.renders_in_compute() {
+        if tessellation.renders_in_compute(engine.device()) {
             let kernels = surfaces.iter().flat_map(|surface| surface.grid_kernels(Some(self.shade)));
             let grids = |output| surfaces.iter().map(move |one| PipelineKey::Grid { output, mapped: one.is_mapped() });
             return engine.prepare(kernels, self.outputs().flat_map(grids).chain(cage));

@@ -1,5 +1,7 @@
 //! How finely surfaces are tessellated.
 
+use osculate_gpu::Device;
+
 use crate::{Camera, EngineError};
 
 /// How the tessellator places vertices on an edge.
@@ -78,8 +80,24 @@ impl Tessellation {
     }
 
     /// Whether compute kernels make pictures.
-    pub(crate) fn renders_in_compute(&self) -> bool {
-        self.evaluator == Evaluator::Compute
+    pub(crate) fn renders_in_compute(&self, device: &Device) -> bool {
+        match self.evaluator {
+            Evaluator::Auto => !device.info().features.tessellation,
+            Evaluator::Tessellator => false,
+            Evaluator::Compute => true,
+        }
+    }
+
+    /// Fails if the tessellator is asked for and there is none.
+    pub(crate) fn check_evaluator(&self, device: &Device) -> Result<(), EngineError> {
+        if self.renders_in_compute(device) || device.info().features.tessellation {
+            return Ok(());
+        }
+        Err(EngineError::Unsupported {
+            device: device.info().name.clone(),
+            what: "tessellate: it has no tessellationShader".to_owned(),
+            hint: "choose the compute evaluator, or another device".to_owned(),
+        })
     }
 
     /// Most segments that an edge can get.

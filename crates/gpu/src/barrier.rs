@@ -28,7 +28,7 @@ impl Scope {
         self.stages.is_empty()
     }
 
-    fn union(self, other: Self) -> Self {
+    pub(crate) fn union(self, other: Self) -> Self {
         Self { stages: self.stages | other.stages, access: self.access | other.access }
     }
 

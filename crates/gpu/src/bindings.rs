@@ -87,6 +87,11 @@ impl Bindings {
         self
     }
 
+    /// The numbers at which there is something, ascending.
+    pub fn numbers(&self) -> impl Iterator<Item = u32> + '_ {
+        self.entries.iter().map(|(number, _)| *number)
+    }
+
     pub(crate) fn get(&self, binding: u32) -> Option<&Bound> {
         let position = self.entries.binary_search_by_key(&binding, |(number, _)| *number).ok()?;
         Some(&self.entries[position].1)

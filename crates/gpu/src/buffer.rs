@@ -3,7 +3,10 @@
 use std::{
     ops::{Bound, Range, RangeBounds},
     ptr::NonNull,
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicU32, Ordering},
+    },
 };
 
 use ash::vk;
@@ -76,6 +79,8 @@ struct Inner {
     /// Timeline value of the last submission that uses the buffer. Locked as long as the host touches the content, and while
     /// a submission that uses the buffer is on its way; see `submission` for the order of locks.
     last_use: Mutex<u64>,
+    /// How many pieces of encoded commands hold it. Rises only while `last_use` is locked.
+    held: AtomicU32,
     device: Device,
 }
 
@@ -122,6 +127,7 @@ impl Device {
             usage: desc.usage,
             memory: desc.memory,
             last_use: Mutex::new(0),
+            held: AtomicU32::new(0),
             device: self.clone(),
         };
         Ok(Buffer { inner: Arc::new(inner) })
@@ -155,7 +161,7 @@ impl Device {
         staging.read(..size)
     }
 
-    fn staging(&self, name: &str, size: u64, memory: Memory) -> Result<Buffer, GpuError> {
+    pub(crate) fn staging(&self, name: &str, size: u64, memory: Memory) -> Result<Buffer, GpuError> {
         let name = format!("staging of {name}");
         self.buffer(&BufferDesc { name: &name, size, usage: BufferUsage::empty(), memory })
     }
@@ -189,7 +195,7 @@ impl Buffer {
     }
 
     /// Writes `data` at `offset` bytes. Only for [`Memory::Upload`]. Waits until submissions that use the buffer are done; later
-    /// ones, by any thread, see all of it.
+    /// ones, by any thread, see all of it. Fails while commands hold the buffer that [`Device::encode`] has written.
     pub fn write<T: NoUninit>(&self, offset: u64, data: &[T]) -> Result<(), GpuError> {
         if self.inner.memory != Memory::Upload {
             return Err(self.misuse("writing by the host", "it is not in upload memory; use Device::upload or a copy"));
@@ -250,8 +256,22 @@ impl Buffer {
     /// Waits until the GPU is done with the buffer. While the guard lives, the content belongs to this thread alone.
     fn idle(&self, what: &str) -> Result<MutexGuard<'_, u64>, GpuError> {
         let last_use = self.lock();
+        if self.inner.held.load(Ordering::Acquire) > 0 {
+            let (name, instead) = (self.name().to_owned(), "Recording::write and Recording::copy_buffer");
+            return Err(GpuError::InUse { name, instead });
+        }
         self.inner.device.wait_for(*last_use, what)?;
         Ok(last_use)
+    }
+
+    /// Keeps the host off the content until [`Self::release`], which is to be called as often.
+    pub(crate) fn hold(&self) {
+        let _last_use = self.lock();
+        self.inner.held.fetch_add(1, Ordering::AcqRel);
+    }
+
+    pub(crate) fn release(&self) {
+        self.inner.held.fetch_sub(1, Ordering::AcqRel);
     }
 
     /// Keeps the host off the content, and other submissions. The value is that of the timeline after the last submission

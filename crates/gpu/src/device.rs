@@ -1,14 +1,11 @@
 //! The device: everything is made from it.
 
-use std::{
-    ffi::{CStr, c_char},
-    sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock},
-};
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
 
 use ash::{ext, khr, vk};
 
 use crate::{
-    DeviceError, DeviceInfo, GpuError, MessageLog, WindowSystem,
+    DeviceError, DeviceInfo, Enabled, Features, GpuError, MessageLog, WindowSystem,
     info::{CacheIdentity, Physical, enumerate},
     instance::Instance,
     memory::Memory,
@@ -29,6 +26,8 @@ pub struct DeviceDesc {
     pub application: String,
     /// The system whose windows the device draws to, for [`Device::presenter`]; `None` leaves out what windows need.
     pub windows: Option<WindowSystem>,
+    /// Optional features to leave off though the device has them: to see what becomes of a program on a lesser device.
+    pub without: Features,
 }
 
 /// Lists the devices of this machine, those that cannot be opened (see [`DeviceInfo::missing`]) among them.
@@ -86,11 +85,23 @@ impl Device {
         let presents = desc.windows.is_some();
         let mut devices = enumerate(&instance.raw, presents)?;
         let infos: Vec<DeviceInfo> = devices.iter().map(|physical| physical.info.clone()).collect();
-        let physical = devices.swap_remove(choose(&infos, desc.select.as_deref())?);
-        let raw = Arc::new(RawDevice::new(Arc::clone(&instance), create_device(&instance, &physical, presents)?));
+        let physical = devices.swap_remove(choose(&infos, desc.select.as_deref())?).without(desc.without);
+        let enabled = Enabled::of(&physical, presents);
+        let raw = Arc::new(RawDevice::new(Arc::clone(&instance), create_device(&instance, &physical, &enabled)?));
         // SAFETY: the device was created with one queue of this family.
         let queue = unsafe { raw.raw.get_device_queue(physical.queue_family, 0) };
         raw.set_name(queue, "queue");
+        Self::assemble(instance, raw, physical, queue, desc.windows.clone())
+    }
+
+    /// Makes what belongs to every device, around a logical device and a queue of `physical.queue_family`.
+    pub(crate) fn assemble(
+        instance: Arc<Instance>,
+        raw: Arc<RawDevice>,
+        physical: Physical,
+        queue: vk::Queue,
+        windows: Option<WindowSystem>,
+    ) -> Result<Self, DeviceError> {
         let memory =
             Memory::new(&instance, &raw, physical.raw, physical.info.limits.max_memory_allocation).map_err(|_| {
                 DeviceError::Vulkan { operation: "creating the memory allocator", result: vk::Result::ERROR_UNKNOWN }
@@ -110,7 +121,7 @@ impl Device {
             push_descriptor: khr::push_descriptor::Device::new(&instance.raw, &raw.raw),
             transform_feedback: (physical.info.features.transform_feedback)
                 .then(|| ext::transform_feedback::Device::new(&instance.raw, &raw.raw)),
-            windows: desc.windows.clone().map(|system| WindowFunctions::new(system, &instance, &raw)),
+            windows: windows.map(|system| WindowFunctions::new(system, &instance, &raw)),
             raw,
             info: physical.info,
             cache_identity: physical.cache_identity,
@@ -180,46 +191,25 @@ impl std::fmt::Debug for Device {
     }
 }
 
-/// Creates the logical device with the required features and every one that [`DeviceInfo::features`] lists. What shaders may
-/// use beyond Vulkan's core is also held in `reflect`, which refuses the rest.
-fn create_device(instance: &Instance, physical: &Physical, presents: bool) -> Result<ash::Device, DeviceError> {
-    let has = physical.info.features;
-    let core = vk::PhysicalDeviceFeatures::default()
-        .tessellation_shader(true)
-        .robust_buffer_access(true)
-        .fill_mode_non_solid(has.wireframe)
-        .pipeline_statistics_query(has.pipeline_statistics);
-    let mut v12 =
-        vk::PhysicalDeviceVulkan12Features::default().timeline_semaphore(true).scalar_block_layout(has.scalar_layout);
-    let mut v13 =
-        vk::PhysicalDeviceVulkan13Features::default().dynamic_rendering(true).synchronization2(true).maintenance4(true);
-    let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default().transform_feedback(true);
-    let extensions = extension_names(physical, presents);
+/// Creates the logical device. What shaders may use beyond Vulkan's core is also held in `reflect`, which refuses the rest.
+fn create_device(instance: &Instance, physical: &Physical, enabled: &Enabled) -> Result<ash::Device, DeviceError> {
+    let (mut v12, mut v13, mut feedback) = (enabled.vulkan12, enabled.vulkan13, enabled.transform_feedback);
+    let extensions = enabled.extension_names();
     let priorities = [1.0];
     let queues =
         [vk::DeviceQueueCreateInfo::default().queue_family_index(physical.queue_family).queue_priorities(&priorities)];
     let mut info = vk::DeviceCreateInfo::default()
         .queue_create_infos(&queues)
         .enabled_extension_names(&extensions)
-        .enabled_features(&core)
+        .enabled_features(&enabled.core)
         .push_next(&mut v12)
         .push_next(&mut v13);
-    if has.transform_feedback {
+    if enabled.features().transform_feedback {
         info = info.push_next(&mut feedback);
     }
     // SAFETY: all structures live across the call, and the device was found to have these extensions and features.
     unsafe { instance.raw.create_device(physical.raw, &info, None) }
         .map_err(|result| DeviceError::Vulkan { operation: "opening the Vulkan device", result })
-}
-
-fn extension_names(physical: &Physical, presents: bool) -> Vec<*const c_char> {
-    let wanted: [(bool, &CStr); 4] = [
-        (physical.extensions.push_descriptor, khr::push_descriptor::NAME),
-        (physical.info.features.transform_feedback, ext::transform_feedback::NAME),
-        (presents, khr::swapchain::NAME),
-        (physical.extensions.portability_subset, khr::portability_subset::NAME),
-    ];
-    wanted.into_iter().filter(|(has, _)| *has).map(|(_, name)| name.as_ptr()).collect()
 }
 
 fn empty_cache(raw: &Arc<RawDevice>) -> Result<Owned<vk::PipelineCache>, DeviceError> {

@@ -37,6 +37,16 @@ pub enum DeviceError {
         /// The first missing feature, extension or version.
         feature: String,
     },
+    /// The device has something that every use of this crate needs, but was created without it.
+    #[error(
+        "device {device:?} was created without {feature}: switch it on in vkCreateDevice, as gpu::Enabled::wanted says"
+    )]
+    NotEnabled {
+        /// Name of the device.
+        device: String,
+        /// The first feature or extension that is off.
+        feature: String,
+    },
     /// Validation was asked for, but its layer is not installed.
     #[error(
         "the Vulkan validation layer is not installed: install it (package vulkan-validationlayers) or do without validation"
@@ -89,6 +99,16 @@ pub enum GpuError {
     NotAcquired {
         /// Name of the image.
         image: String,
+    },
+    /// Commands in a caller's command buffer use it, and may not have run yet.
+    #[error(
+        "{name:?} is in use by encoded commands: drop their gpu::Encoded once they have run, or change it by commands too ({instead})"
+    )]
+    InUse {
+        /// Name of the buffer or image.
+        name: String,
+        /// How to do without waiting.
+        instead: &'static str,
     },
     /// The driver refused a call.
     #[error("{operation} failed: {result}")]

@@ -5,10 +5,11 @@ use std::ffi::CString;
 use ash::{ext::transform_feedback::DeviceFn, vk};
 
 use crate::{
-    CapturePass, ColorTarget, DepthTarget, Device, Format, Image, ImageRegion, Rect, Vertices,
+    CallerSet, CapturePass, ColorTarget, DepthTarget, Device, EncodeDraws, Format, Image, ImageRegion, Rect, Vertices,
     barrier::{Barriers, Scope},
     image::{layers, range},
     layout::descriptor_type,
+    pipeline::Pipeline,
     plan::{Call, Content, Descriptor, DrawCall, Kept, Step, Work, runs},
     query::Queries,
 };
@@ -40,8 +41,18 @@ impl<'a> Encoder<'a> {
 
     /// Writes all steps, each behind its barriers, and the full barrier at the end.
     pub(crate) fn encode(&self, steps: &[Step<'_>], barriers: &[Barriers]) {
+        if self.device.shared.raw.is_borrowed {
+            // Commands of the caller's do not end with a full barrier.
+            self.enter(vk::PipelineStageFlags2::ALL_COMMANDS);
+        }
         self.reset_queries();
         self.timestamp(0);
+        self.steps(steps, barriers);
+        self.finish();
+    }
+
+    /// Writes all steps, each behind its barriers.
+    pub(crate) fn steps(&self, steps: &[Step<'_>], barriers: &[Barriers]) {
         for ((index, step), barriers) in (0..).zip(steps).zip(barriers) {
             self.begin_label(&step.name);
             self.barriers(barriers);
@@ -56,7 +67,33 @@ impl<'a> Encoder<'a> {
             self.end_label();
             self.timestamp(index + 1);
         }
-        self.finish();
+    }
+
+    /// Orders what reads buffers and images of this device in a caller's commands so far before `stages` of what comes: nothing
+    /// that was written there needs to be made visible any more.
+    pub(crate) fn enter(&self, stages: vk::PipelineStageFlags2) {
+        if !stages.is_empty() {
+            let none = vk::AccessFlags2::NONE;
+            let barrier = memory_barrier(Scope::new(CONSUMERS, none), Scope::new(stages, none));
+            self.barrier(&vk::DependencyInfo::default().memory_barriers(&[barrier]));
+        }
+    }
+
+    /// Makes what was written visible to all that can read it in a caller's commands from here on, and to the host.
+    pub(crate) fn leave(&self, written: Scope) {
+        if !written.stages.is_empty() {
+            let access = vk::AccessFlags2::MEMORY_READ | vk::AccessFlags2::MEMORY_WRITE;
+            let readers = Scope::new(CONSUMERS | vk::PipelineStageFlags2::HOST, access);
+            self.barrier(&vk::DependencyInfo::default().memory_barriers(&[memory_barrier(written, readers)]));
+        }
+    }
+
+    /// Writes draws into a rendering that somebody else has begun.
+    pub(crate) fn draws_for_caller(&self, draws: &[DrawCall<'_>], desc: &EncodeDraws<'_>) {
+        // SAFETY: see `Encoder`; whoever has begun the rendering vouches for the viewport.
+        unsafe { self.device.raw().cmd_set_viewport(self.commands, 0, &[desc.viewport]) }
+        self.set_scissor(desc.area);
+        self.draws(draws, desc.area, desc.caller_set);
     }
 
     fn work(&self, index: u32, work: &Work<'_>) {
@@ -64,10 +101,11 @@ impl<'a> Encoder<'a> {
             Work::Dispatch { call, groups } => self.dispatch(call, *groups),
             Work::Render { pass, area, draws } => {
                 self.begin_rendering(pass.viewport, *area, pass.color.as_ref(), pass.depth.as_ref());
-                self.draws(draws, *area);
+                self.draws(draws, *area, None);
                 self.end_rendering();
             }
             Work::Capture { pass, size, draws, counter } => self.capture(index, pass, *size, draws, *counter),
+            Work::Write { target, offset, data } => self.write(*target, *offset, data),
             Work::CopyBuffer { source, target, region } => self.copy_buffer(*source, *target, *region),
             Work::CopyFromImage { source, buffer, offset } => self.copy_from_image(source, *buffer, *offset),
             Work::CopyToImage { buffer, offset, target } => self.copy_to_image(*buffer, *offset, target),
@@ -83,11 +121,12 @@ impl<'a> Encoder<'a> {
     }
 
     /// Draws within an area, to which the scissor is set.
-    fn draws(&self, draws: &[DrawCall<'_>], area: Rect) {
+    fn draws(&self, draws: &[DrawCall<'_>], area: Rect, caller_set: Option<CallerSet<'_>>) {
         let mut scissor = area;
         for run in runs(draws) {
             self.begin_label(&run[0].call.pipeline.name);
             self.bind_pipeline(&run[0].call);
+            self.bind_caller_set(run[0].call.pipeline, caller_set);
             for draw in run {
                 let wanted = draw.scissor.map_or(area, |scissor| scissor.intersection(area));
                 if wanted != scissor {
@@ -128,6 +167,17 @@ impl<'a> Encoder<'a> {
         // SAFETY: see `Encoder`; no capture is in progress.
         unsafe {
             self.device.raw().cmd_bind_pipeline(self.commands, call.pipeline.bind_point, call.pipeline.raw.raw);
+        }
+    }
+
+    /// Sets the caller's descriptor set, if the pipeline has one.
+    fn bind_caller_set(&self, pipeline: &Pipeline, set: Option<CallerSet<'_>>) {
+        let Some(CallerSet { set, dynamic_offsets }) = set.filter(|_| pipeline.layout.has_caller_set) else { return };
+        let layout = pipeline.layout.raw.raw;
+        // SAFETY: see `Encoder`; the caller vouches for the set, which fits the layout that it has given for the pipeline.
+        unsafe {
+            let raw = self.device.raw();
+            raw.cmd_bind_descriptor_sets(self.commands, pipeline.bind_point, layout, 1, &[set], dynamic_offsets);
         }
     }
 
@@ -217,6 +267,13 @@ impl<'a> Encoder<'a> {
         let (count, counters) = counter_array(counter.as_ref());
         // SAFETY: see `Encoder`; capture has begun; the counter, if any, has the usage and four bytes.
         unsafe { (functions.cmd_end_transform_feedback_ext)(self.commands, 0, count, counters, std::ptr::null()) }
+    }
+
+    fn write(&self, target: vk::Buffer, offset: u64, data: &[u8]) {
+        if !data.is_empty() {
+            // SAFETY: see `Encoder`; there are at most 65 536 bytes, a multiple of 4, within the buffer; so is the offset.
+            unsafe { self.device.raw().cmd_update_buffer(self.commands, target, offset, data) }
+        }
     }
 
     fn copy_buffer(&self, source: vk::Buffer, target: vk::Buffer, region: vk::BufferCopy2<'_>) {
@@ -364,6 +421,16 @@ impl<'a> Encoder<'a> {
         }
     }
 }
+
+/// Where commands of this crate use buffers and images that earlier ones have written or read: everywhere but in attachments,
+/// which are nobody else's business.
+const CONSUMERS: vk::PipelineStageFlags2 = vk::PipelineStageFlags2::from_raw(
+    vk::PipelineStageFlags2::INDEX_INPUT.as_raw()
+        | vk::PipelineStageFlags2::PRE_RASTERIZATION_SHADERS.as_raw()
+        | vk::PipelineStageFlags2::FRAGMENT_SHADER.as_raw()
+        | vk::PipelineStageFlags2::COMPUTE_SHADER.as_raw()
+        | vk::PipelineStageFlags2::ALL_TRANSFER.as_raw(),
+);
 
 /// What stands between two parts of a capture: the second continues where the first ends, by the counter.
 fn capture_pause() -> vk::MemoryBarrier2<'static> {

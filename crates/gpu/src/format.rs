@@ -82,6 +82,31 @@ impl Format {
         }
     }
 
+    const ALL: [Self; 12] = [
+        Self::Rgba8Unorm,
+        Self::Rgba8Srgb,
+        Self::Bgra8Unorm,
+        Self::Bgra8Srgb,
+        Self::Rgba16Float,
+        Self::Rgba32Float,
+        Self::R8Unorm,
+        Self::R16Unorm,
+        Self::R16Float,
+        Self::R32Float,
+        Self::R32Uint,
+        Self::Depth32Float,
+    ];
+
+    /// The format that Vulkan calls so.
+    pub(crate) fn of(raw: vk::Format) -> Option<Self> {
+        Self::ALL.into_iter().find(|format| format.raw() == raw)
+    }
+
+    /// What Vulkan calls it.
+    pub fn vulkan(self) -> vk::Format {
+        self.raw()
+    }
+
     /// The colour format that Vulkan calls so, if windows may have it.
     pub(crate) fn of_window(raw: vk::Format) -> Option<Self> {
         let all = [Self::Bgra8Srgb, Self::Rgba8Srgb, Self::Bgra8Unorm, Self::Rgba8Unorm, Self::Rgba16Float];

@@ -9,13 +9,14 @@ use ash::vk;
 use crate::{
     Device, Format, GpuError, Reflection, Shader, Stage,
     format::sample_flag,
-    layout::merge,
+    info::TESSELLATION,
+    layout::{CallerSetLayout, merge},
     pipeline::{Pipeline, StageData},
 };
 
 pub use state::{Blend, Compare, Cull, DepthBias, DepthState, FrontFace, PolygonMode, Topology};
 
-/// The tessellation stages of a pipeline.
+/// The tessellation stages of a pipeline; they need [`Features::tessellation`](crate::Features::tessellation).
 #[derive(Clone, Copy, Debug)]
 pub struct Tessellation<'a> {
     /// Tessellation control shader.
@@ -59,6 +60,21 @@ pub struct GraphicsPipelineDesc<'a> {
     pub specialization: &'a [(u32, u32)],
     /// Nothing is drawn: for capture passes, which need it.
     pub rasterizer_discard: bool,
+    /// Attachments of a rendering that a caller begins, in place of `color_format` and `depth_format`. If they are what targets here can be, passes can draw with the pipeline too.
+    pub attachments: Option<Attachments<'a>>,
+    /// Layout of the caller's descriptor set 1. Shaders that use it come from [`Device::caller_shader`].
+    pub caller_set: Option<CallerSetLayout>,
+}
+
+/// Formats of the attachments of a rendering that a caller begins: any number, in Vulkan's own terms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct Attachments<'a> {
+    /// Colour attachments, in order; `UNDEFINED` for those that are left out.
+    pub colors: &'a [vk::Format],
+    /// Depth attachment; `UNDEFINED` if there is none.
+    pub depth: vk::Format,
+    /// Stencil attachment; `UNDEFINED` if there is none. It is neither tested nor written.
+    pub stencil: vk::Format,
 }
 
 impl<'a> GraphicsPipelineDesc<'a> {
@@ -80,6 +96,29 @@ impl<'a> GraphicsPipelineDesc<'a> {
             samples: 1,
             specialization: &[],
             rasterizer_discard: false,
+            attachments: None,
+            caller_set: None,
+        }
+    }
+
+    fn targets(&self) -> Targets {
+        let (samples, discard) = (self.samples, self.rasterizer_discard);
+        let own = Targets { color: self.color_format, depth: self.depth_format, samples, discard, of_caller: false };
+        match &self.attachments {
+            Some(attachments) => {
+                let formats = attachments.as_targets();
+                let (color, depth) = formats.unwrap_or_default();
+                Targets { color, depth, of_caller: formats.is_none(), ..own }
+            }
+            None => own,
+        }
+    }
+
+    /// Whether there is a depth attachment.
+    fn has_depth(&self) -> bool {
+        match self.attachments {
+            Some(attachments) => attachments.depth != vk::Format::UNDEFINED,
+            None => self.depth_format.is_some(),
         }
     }
 
@@ -105,6 +144,8 @@ pub(crate) struct Targets {
     pub(crate) depth: Option<Format>,
     pub(crate) samples: u32,
     pub(crate) discard: bool,
+    /// They are [`Attachments`] of a kind that no pass here has.
+    pub(crate) of_caller: bool,
 }
 
 /// Graphics stages, specialized and ready to draw. Clones share it.
@@ -150,7 +191,7 @@ impl Device {
         let shaders = desc.shaders();
         let reflections: Vec<(&str, &Reflection)> =
             shaders.iter().map(|(shader, _)| (shader.name(), shader.reflection())).collect();
-        let layout = self.layout(desc.name, merge(desc.name, &reflections)?)?;
+        let layout = self.layout(desc.name, merge(desc.name, &reflections)?, desc.caller_set)?;
         let raw = self.create(desc, layout.raw.raw)?;
         let inner = Pipeline {
             raw,
@@ -161,12 +202,7 @@ impl Device {
         };
         Ok(GraphicsPipeline {
             inner: Arc::new(inner),
-            targets: Targets {
-                color: desc.color_format,
-                depth: desc.depth_format,
-                samples: desc.samples,
-                discard: desc.rasterizer_discard,
-            },
+            targets: desc.targets(),
             blends: desc.blend != Blend::Replace,
             capture_stride: desc.last_before_rasterizer().reflection().capture_stride,
         })
@@ -174,6 +210,9 @@ impl Device {
 
     /// Fails unless the description makes sense and the device can do it.
     fn check(&self, desc: &GraphicsPipelineDesc<'_>) -> Result<(), GpuError> {
+        if desc.tessellation.is_some() && !self.info().features.tessellation {
+            return Err(self.missing(format!("pipeline {:?}", desc.name), TESSELLATION));
+        }
         for (shader, stage) in desc.shaders() {
             self.check_stage(desc.name, shader, stage)?;
         }
@@ -195,11 +234,17 @@ impl Device {
         {
             return refuse("a depth format where a colour format belongs, or the other way round".to_owned());
         }
-        if desc.depth.is_some() && desc.depth_format.is_none() {
+        if desc.depth.is_some() && !desc.has_depth() {
             return refuse("it has a depth state, but no depth format".to_owned());
         }
         if !self.info().limits.sample_counts.contains(&desc.samples) {
             return refuse(format!("{} samples; the device has {:?}", desc.samples, self.info().limits.sample_counts));
+        }
+        if desc.caller_set.is_none() && desc.shaders().iter().any(|(shader, _)| shader.reflection().uses_caller_set) {
+            return refuse("a shader uses descriptor set 1, and no layout was given for it".to_owned());
+        }
+        if let Some(attachments) = &desc.attachments {
+            attachments.check(self, desc.blend != Blend::Replace).map_or(Ok(()), refuse)?;
         }
         Ok(())
     }
@@ -224,14 +269,21 @@ impl Device {
         let multisample = vk::PipelineMultisampleStateCreateInfo::default()
             .rasterization_samples(sample_flag(desc.samples).unwrap_or(vk::SampleCountFlags::TYPE_1));
         let depth = state::depth(desc.depth);
-        let attachments: Vec<_> = desc.color_format.map(|_| state::blend(desc.blend)).into_iter().collect();
+        let color_formats: Vec<_> = match &desc.attachments {
+            Some(attachments) => attachments.colors.to_vec(),
+            None => desc.color_format.map(Format::raw).into_iter().collect(),
+        };
+        let attachments = vec![state::blend(desc.blend); color_formats.len()];
         let blend = vk::PipelineColorBlendStateCreateInfo::default().attachments(&attachments);
         let dynamic_states = [vk::DynamicState::VIEWPORT, vk::DynamicState::SCISSOR];
         let dynamic = vk::PipelineDynamicStateCreateInfo::default().dynamic_states(&dynamic_states);
-        let color_formats: Vec<_> = desc.color_format.map(Format::raw).into_iter().collect();
+        let depth_format = desc.depth_format.map_or(vk::Format::UNDEFINED, Format::raw);
         let mut rendering = vk::PipelineRenderingCreateInfo::default()
             .color_attachment_formats(&color_formats)
-            .depth_attachment_format(desc.depth_format.map_or(vk::Format::UNDEFINED, Format::raw));
+            .depth_attachment_format(desc.attachments.map_or(depth_format, |attachments| attachments.depth))
+            .stencil_attachment_format(
+                desc.attachments.map_or(vk::Format::UNDEFINED, |attachments| attachments.stencil),
+            );
         let mut info = vk::GraphicsPipelineCreateInfo::default()
             .stages(&stages)
             .vertex_input_state(&vertex_input)
@@ -252,5 +304,38 @@ impl Device {
         // layout was merged from the very shaders.
         let made = unsafe { self.raw().create_graphics_pipelines(cache.raw, &[info], None) };
         self.single(desc.name, made)
+    }
+}
+
+impl Attachments<'_> {
+    /// The same as a colour and a depth target of a pass, if they are no more than that.
+    fn as_targets(&self) -> Option<(Option<Format>, Option<Format>)> {
+        let known = |format| match format {
+            vk::Format::UNDEFINED => Some(None),
+            format => Format::of(format).map(Some),
+        };
+        let color = match self.colors {
+            [] => None,
+            [color] => known(*color)?,
+            _ => return None,
+        };
+        (self.stencil == vk::Format::UNDEFINED).then_some((color, known(self.depth)?))
+    }
+
+    /// What is wrong with them on a device, if anything.
+    fn check(&self, device: &Device, blends: bool) -> Option<String> {
+        let color = vk::FormatFeatureFlags::COLOR_ATTACHMENT;
+        let color = if blends { color | vk::FormatFeatureFlags::COLOR_ATTACHMENT_BLEND } else { color };
+        let depth = vk::FormatFeatureFlags::DEPTH_STENCIL_ATTACHMENT;
+        // Vulkan guarantees as many.
+        if self.colors.len() > 4 {
+            return Some(format!("{} colour attachments; at most 4 are supported", self.colors.len()));
+        }
+        let all = self.colors.iter().map(|&format| (format, color)).chain([(self.depth, depth), (self.stencil, depth)]);
+        let wrong = |&(format, wanted): &(vk::Format, vk::FormatFeatureFlags)| {
+            format != vk::Format::UNDEFINED && !device.raw_format_features(format).contains(wanted)
+        };
+        let (format, _) = all.into_iter().find(wrong)?;
+        Some(format!("the device cannot have {format:?} as the attachment that it is wanted for"))
     }
 }

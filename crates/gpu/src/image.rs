@@ -2,7 +2,7 @@
 
 use std::sync::{
     Arc,
-    atomic::{AtomicI32, Ordering},
+    atomic::{AtomicI32, AtomicU32, Ordering},
 };
 
 use ash::vk;
@@ -78,6 +78,8 @@ struct Inner {
     features: vk::FormatFeatureFlags,
     /// Layout after the latest submission. Changes only while the queue is locked.
     layout: AtomicI32,
+    /// How many pieces of encoded commands hold it in that layout. Rises only while the queue is locked.
+    held: AtomicU32,
     device: Device,
 }
 
@@ -145,6 +147,7 @@ impl Device {
             usage: desc.usage,
             features: self.format_features(desc.format),
             layout: AtomicI32::new(layout.as_raw()),
+            held: AtomicU32::new(0),
             device: self.clone(),
         };
         Ok(Image { inner: Arc::new(inner) })
@@ -230,9 +233,13 @@ impl Device {
     }
 
     fn format_features(&self, format: Format) -> vk::FormatFeatureFlags {
+        self.raw_format_features(format.raw())
+    }
+
+    pub(crate) fn raw_format_features(&self, format: vk::Format) -> vk::FormatFeatureFlags {
         let (instance, physical) = (&self.shared.instance.raw, self.shared.physical);
         // SAFETY: plain parameters; the physical device is that of this device.
-        unsafe { instance.get_physical_device_format_properties(physical, format.raw()) }.optimal_tiling_features
+        unsafe { instance.get_physical_device_format_properties(physical, format) }.optimal_tiling_features
     }
 
     /// A view of the first levels of an image.
@@ -361,6 +368,24 @@ impl Image {
             return Err(GpuError::NotAcquired { image: self.name().to_owned() });
         }
         Ok(())
+    }
+
+    /// Fails if encoded commands rely on a layout other than this. Called with the queue locked.
+    pub(crate) fn check_held(&self, layout: vk::ImageLayout) -> Result<(), GpuError> {
+        if self.inner.held.load(Ordering::Acquire) > 0 && layout != self.layout() {
+            let instead = "or use another image";
+            return Err(GpuError::InUse { name: self.name().to_owned(), instead });
+        }
+        Ok(())
+    }
+
+    /// Keeps the layout until [`Self::release`], which is to be called as often. Called with the queue locked.
+    pub(crate) fn hold(&self) {
+        self.inner.held.fetch_add(1, Ordering::AcqRel);
+    }
+
+    pub(crate) fn release(&self) {
+        self.inner.held.fetch_sub(1, Ordering::AcqRel);
     }
 
     /// Remembers the layout after a submission. Called with the queue locked.

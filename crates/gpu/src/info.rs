@@ -4,8 +4,9 @@ use std::ffi::CStr;
 
 use ash::{ext, khr, vk};
 
-use crate::DeviceError;
 use crate::format::sample_flag;
+use crate::requirements::supported;
+use crate::{DeviceError, Enabled};
 
 /// The kind of a device, best first.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -66,7 +67,7 @@ pub struct DeviceInfo {
     pub is_llvmpipe: bool,
     /// Its limits.
     pub limits: Limits,
-    /// The optional features it has; all of them are switched on.
+    /// The optional features it has; of an open device those that are switched on.
     pub features: Features,
     /// Required features that it lacks; a device can be opened only if this is empty.
     pub missing: Vec<String>,
@@ -108,9 +109,9 @@ pub struct Limits {
     pub max_stage_storage_images: u32,
     /// Most buffers and images that one stage of a pipeline uses; in the fragment stage the colour target counts too.
     pub max_stage_resources: u32,
-    /// Highest tessellation level.
+    /// Highest tessellation level; 0 without tessellation.
     pub max_tessellation_level: u32,
-    /// Most points in a patch, in and out.
+    /// Most points in a patch, in and out; 0 without tessellation.
     pub max_patch_vertices: u32,
     /// Most work groups of a dispatch, per dimension.
     pub max_work_groups: [u32; 3],
@@ -154,6 +155,8 @@ impl Limits {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 #[non_exhaustive]
 pub struct Features {
+    /// `tessellationShader`: pipelines with [`Tessellation`](crate::Tessellation).
+    pub tessellation: bool,
     /// `VK_EXT_transform_feedback` with `transformFeedbackQueries`, which count what was captured: capture passes.
     pub transform_feedback: bool,
     /// `fillModeNonSolid`: [`PolygonMode::Line`](crate::PolygonMode::Line).
@@ -164,6 +167,31 @@ pub struct Features {
     pub scalar_layout: bool,
 }
 
+impl Features {
+    /// All of them.
+    pub const ALL: Self = Self {
+        tessellation: true,
+        transform_feedback: true,
+        wireframe: true,
+        pipeline_statistics: true,
+        scalar_layout: true,
+    };
+
+    /// Those that are not among others.
+    #[must_use]
+    pub fn without(self, others: Self) -> Self {
+        Self {
+            tessellation: self.tessellation && !others.tessellation,
+            transform_feedback: self.transform_feedback && !others.transform_feedback,
+            wireframe: self.wireframe && !others.wireframe,
+            pipeline_statistics: self.pipeline_statistics && !others.pipeline_statistics,
+            scalar_layout: self.scalar_layout && !others.scalar_layout,
+        }
+    }
+}
+
+/// What [`Features::tessellation`] stands for, in messages.
+pub(crate) const TESSELLATION: &str = "tessellationShader";
 /// What [`Features::transform_feedback`] stands for, in messages.
 pub(crate) const TRANSFORM_FEEDBACK: &str = "VK_EXT_transform_feedback with transformFeedbackQueries";
 
@@ -206,7 +234,7 @@ pub(crate) fn enumerate(instance: &ash::Instance, presents: bool) -> Result<Vec<
 }
 
 /// Finds out what one device is and can do.
-fn examine(
+pub(crate) fn examine(
     instance: &ash::Instance,
     index: usize,
     raw: vk::PhysicalDevice,
@@ -217,12 +245,10 @@ fn examine(
     let version = unsafe { instance.get_physical_device_properties(raw) }.api_version;
     // A device older than 1.3 may be listed, but must not be asked with 1.3's structures.
     let modern = version >= vk::API_VERSION_1_3;
-    let (features, mut missing) = if modern { find_features(instance, raw, extensions) } else { Default::default() };
-    if !modern {
-        missing.push("Vulkan 1.3".to_owned());
-    }
-    if !extensions.push_descriptor {
-        missing.push("VK_KHR_push_descriptor".to_owned());
+    let supported = if modern { find_features(instance, raw, extensions) } else { Enabled::default() };
+    let mut missing = vec!["Vulkan 1.3".to_owned()];
+    if modern {
+        missing = supported.missing().into_iter().map(str::to_owned).collect();
     }
     if presents && !extensions.swapchain {
         missing.push("VK_KHR_swapchain, which windows need".to_owned());
@@ -233,16 +259,29 @@ fn examine(
     }
     let (queue_family, timestamp_mask) = queue_family.unwrap_or_default();
     let Properties { info, cache_identity, counts_captures } = find_properties(instance, raw, modern, extensions);
+    let features = supported.features();
     let mut info = DeviceInfo { index, api_version: version_text(version), features, missing, ..info };
     info.features.transform_feedback &= counts_captures;
     close(&mut info.limits, info.features, timestamp_mask);
     Ok(Physical { raw, info, queue_family, timestamp_mask, extensions, cache_identity })
 }
 
+impl Physical {
+    /// The same device with fewer features.
+    pub(crate) fn without(mut self, features: Features) -> Self {
+        self.info.features = self.info.features.without(features);
+        close(&mut self.info.limits, self.info.features, self.timestamp_mask);
+        self
+    }
+}
+
 /// Zeroes the limits of what the device cannot do.
 fn close(limits: &mut Limits, features: Features, timestamp_mask: u64) {
     if timestamp_mask == 0 {
         limits.timestamp_period = 0.0;
+    }
+    if !features.tessellation {
+        (limits.max_tessellation_level, limits.max_patch_vertices) = (0, 0);
     }
     if !features.transform_feedback {
         (limits.max_capture_buffer, limits.max_capture_stride) = (0, 0);
@@ -270,44 +309,32 @@ fn find_extensions(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Result<
 
 /// The first queue family with graphics and compute, and the bits of its timestamps that count.
 fn find_queue_family(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Option<(u32, u64)> {
-    let wanted = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
-    // SAFETY: `raw` comes from this instance.
-    let families = unsafe { instance.get_physical_device_queue_family_properties(raw) };
-    let index = families.iter().position(|family| family.queue_flags.contains(wanted))?;
-    let bits = families[index].timestamp_valid_bits;
-    let mask = u64::MAX.checked_shr(64u32.saturating_sub(bits)).unwrap_or(0);
-    Some((u32::try_from(index).ok()?, mask))
+    (0..queue_families(instance, raw).len() as u32)
+        .find_map(|family| Some((family, timestamp_mask(instance, raw, family)?)))
 }
 
-/// The optional features of a device of version 1.3, and the names of the required ones that it lacks.
-fn find_features(instance: &ash::Instance, raw: vk::PhysicalDevice, extensions: Extensions) -> (Features, Vec<String>) {
-    let mut v12 = vk::PhysicalDeviceVulkan12Features::default();
-    let mut v13 = vk::PhysicalDeviceVulkan13Features::default();
-    let mut feedback = vk::PhysicalDeviceTransformFeedbackFeaturesEXT::default();
-    let mut all = vk::PhysicalDeviceFeatures2::default().push_next(&mut v12).push_next(&mut v13);
-    if extensions.transform_feedback {
-        all = all.push_next(&mut feedback);
-    }
-    // SAFETY: `raw` comes from this instance, and the chain holds structures of its version and extensions.
-    unsafe { instance.get_physical_device_features2(raw, &mut all) };
-    let core = all.features;
-    let yes = |flag: vk::Bool32| flag == vk::TRUE;
-    let required = [
-        ("tessellationShader", core.tessellation_shader),
-        ("robustBufferAccess", core.robust_buffer_access),
-        ("timelineSemaphore", v12.timeline_semaphore),
-        ("dynamicRendering", v13.dynamic_rendering),
-        ("synchronization2", v13.synchronization2),
-        ("maintenance4", v13.maintenance4),
+fn queue_families(instance: &ash::Instance, raw: vk::PhysicalDevice) -> Vec<vk::QueueFamilyProperties> {
+    // SAFETY: `raw` comes from this instance.
+    unsafe { instance.get_physical_device_queue_family_properties(raw) }
+}
+
+/// The bits of a queue family's timestamps that count; `None` unless it has graphics and compute.
+pub(crate) fn timestamp_mask(instance: &ash::Instance, raw: vk::PhysicalDevice, family: u32) -> Option<u64> {
+    let wanted = vk::QueueFlags::GRAPHICS | vk::QueueFlags::COMPUTE;
+    let family = *queue_families(instance, raw).get(family as usize)?;
+    let mask = u64::MAX.checked_shr(64u32.saturating_sub(family.timestamp_valid_bits)).unwrap_or(0);
+    family.queue_flags.contains(wanted).then_some(mask)
+}
+
+/// The features and, as far as they matter, extensions of a device of version 1.3.
+fn find_features(instance: &ash::Instance, raw: vk::PhysicalDevice, extensions: Extensions) -> Enabled {
+    let mut found = supported(instance, raw, extensions.transform_feedback);
+    let names = [
+        (extensions.push_descriptor, khr::push_descriptor::NAME),
+        (extensions.transform_feedback, ext::transform_feedback::NAME),
     ];
-    let missing = required.iter().filter(|(_, flag)| !yes(*flag)).map(|(name, _)| (*name).to_owned()).collect();
-    let features = Features {
-        transform_feedback: yes(feedback.transform_feedback),
-        wireframe: yes(core.fill_mode_non_solid),
-        pipeline_statistics: yes(core.pipeline_statistics_query),
-        scalar_layout: yes(v12.scalar_block_layout),
-    };
-    (features, missing)
+    found.extensions.extend(names.into_iter().filter(|(has, _)| *has).map(|(_, name)| name));
+    found
 }
 
 /// What [`find_properties`] finds.
@@ -423,6 +450,11 @@ mod tests {
         assert_eq!(closed(can, 1), (9, 8, 1.0));
         assert_eq!(closed(Features::default(), 1), (0, 0, 1.0));
         assert_eq!(closed(can, 0), (9, 8, 0.0));
+        let mut limits = Limits { max_patch_vertices: 32, max_tessellation_level: 64, ..Limits::default() };
+        close(&mut limits, Features { tessellation: true, ..can }, 1);
+        assert_eq!((limits.max_patch_vertices, limits.max_tessellation_level), (32, 64));
+        close(&mut limits, can, 1);
+        assert_eq!((limits.max_patch_vertices, limits.max_tessellation_level), (0, 0));
     }
 
     #[test]

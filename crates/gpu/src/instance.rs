@@ -19,6 +19,8 @@ pub(crate) struct Instance {
     pub(crate) debug_utils: bool,
     messenger: Option<(ext::debug_utils::Instance, vk::DebugUtilsMessengerEXT)>,
     pub(crate) messages: MessageLog,
+    /// Whether it belongs to somebody else, who destroys it.
+    is_borrowed: bool,
     pub(crate) entry: ash::Entry,
 }
 
@@ -60,11 +62,17 @@ impl Instance {
 
         let messages = MessageLog::default();
         let raw = create(&entry, application, &layers, &names, portability, validation.then_some(&messages))?;
-        let mut instance = Self { raw, debug_utils, messenger: None, messages, entry };
+        let mut instance = Self { raw, debug_utils, messenger: None, messages, is_borrowed: false, entry };
         if validation && debug_utils {
             instance.add_messenger()?;
         }
         Ok(Arc::new(instance))
+    }
+
+    /// An instance of somebody else's, who collects its messages and destroys it.
+    pub(crate) fn borrowed(entry: ash::Entry, raw: ash::Instance, debug_utils: bool) -> Arc<Self> {
+        let messages = MessageLog::default();
+        Arc::new(Self { raw, debug_utils, messenger: None, messages, is_borrowed: true, entry })
     }
 
     /// Starts to collect messages.
@@ -83,6 +91,9 @@ impl Drop for Instance {
         if let Some((functions, messenger)) = self.messenger.take() {
             // SAFETY: created from this instance, destroyed once.
             unsafe { functions.destroy_debug_utils_messenger(messenger, None) }
+        }
+        if self.is_borrowed {
+            return;
         }
         // SAFETY: devices hold an Arc of self, so none is left.
         unsafe { self.raw.destroy_instance(None) }

@@ -139,27 +139,50 @@ pub(crate) fn stage_flags(stage: Stage) -> (vk::ShaderStageFlags, vk::PipelineSt
     }
 }
 
+/// The layout of a descriptor set of the caller's, which is set 1 of a pipeline.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct CallerSetLayout(vk::DescriptorSetLayout);
+
+impl CallerSetLayout {
+    /// Takes note of a layout; it stays the caller's.
+    ///
+    /// # Safety
+    /// The layout is of the device that pipelines are made on with it, is not one of push descriptors, and lives as long as they do. Shaders that use set
+    /// 1 agree with it, and pipelines stay within the device's limits with what it holds.
+    pub unsafe fn new(layout: vk::DescriptorSetLayout) -> Self {
+        Self(layout)
+    }
+}
+
 /// A pipeline layout with the layout of its one set of pushed descriptors. Field order is destruction order.
 pub(crate) struct Layout {
     pub(crate) raw: Owned<vk::PipelineLayout>,
     _set: Owned<vk::DescriptorSetLayout>,
     pub(crate) interface: Interface,
+    /// Descriptor set 1 is the caller's.
+    pub(crate) has_caller_set: bool,
 }
 
 impl Device {
-    pub(crate) fn layout(&self, name: &str, interface: Interface) -> Result<Arc<Layout>, GpuError> {
+    pub(crate) fn layout(
+        &self,
+        name: &str,
+        interface: Interface,
+        caller_set: Option<CallerSetLayout>,
+    ) -> Result<Arc<Layout>, GpuError> {
         interface.check(name, &self.info().limits)?;
         let set = self.set_layout(name, &interface)?;
-        let sets = [set.raw];
+        let sets: Vec<_> = std::iter::once(set.raw).chain(caller_set.map(|layout| layout.0)).collect();
         let push = [vk::PushConstantRange::default().stage_flags(interface.push_stages).size(interface.push_size)];
         let mut info = vk::PipelineLayoutCreateInfo::default().set_layouts(&sets);
         if interface.push_size > 0 {
             info = info.push_constant_ranges(&push);
         }
-        // SAFETY: the set layout is alive; push constants and resources of every stage are within the limits.
+        // SAFETY: the set layout is alive, and so is the caller's, by the promise of `CallerSetLayout::new`; push constants and resources of every stage are within the limits.
         let raw = unsafe { self.raw().create_pipeline_layout(&info, None) }
             .map_err(|result| GpuError::from_vulkan(format!("creating the layout of {name:?}"), result))?;
-        Ok(Arc::new(Layout { raw: Owned::new(&self.shared.raw, raw, name), _set: set, interface }))
+        let has_caller_set = caller_set.is_some();
+        Ok(Arc::new(Layout { raw: Owned::new(&self.shared.raw, raw, name), _set: set, interface, has_caller_set }))
     }
 
     fn set_layout(&self, name: &str, interface: &Interface) -> Result<Owned<vk::DescriptorSetLayout>, GpuError> {
@@ -213,6 +236,7 @@ mod tests {
             local_size: None,
             output_vertices: None,
             capture_stride: None,
+            uses_caller_set: false,
         }
     }
 

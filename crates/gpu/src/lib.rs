@@ -108,6 +108,8 @@ mod bindings;
 mod buffer;
 mod cache;
 mod device;
+mod embed;
+mod encode;
 mod error;
 mod execute;
 mod format;
@@ -127,6 +129,7 @@ mod query;
 mod recording;
 mod rect;
 mod reflect;
+mod requirements;
 mod resource;
 mod sampler;
 mod select;
@@ -134,17 +137,22 @@ mod shader;
 mod submission;
 mod texture;
 
+/// Vulkan as this crate is built upon it, for programs that have objects of their own.
+pub use ash;
 pub use bindings::Bindings;
 pub use buffer::{Buffer, BufferDesc, BufferUsage, Memory};
 pub use device::{Device, DeviceDesc, devices};
+pub use embed::RawDeviceDesc;
+pub use encode::{CallerSet, EncodeDraws, Encoded};
 pub use error::{DeviceError, GpuError};
 pub use format::{Format, Numbers};
 pub use graphics::{
-    Blend, Compare, Cull, DepthBias, DepthState, FrontFace, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode,
-    Tessellation, Topology,
+    Attachments, Blend, Compare, Cull, DepthBias, DepthState, FrontFace, GraphicsPipeline, GraphicsPipelineDesc,
+    PolygonMode, Tessellation, Topology,
 };
 pub use image::{Image, ImageDesc, ImageRegion, ImageUsage};
 pub use info::{DeviceInfo, DeviceKind, Features, Limits};
+pub use layout::CallerSetLayout;
 pub use memory::MemoryUse;
 pub use messages::MessageLog;
 pub use pipeline::{ComputePipeline, ComputePipelineDesc};
@@ -157,6 +165,7 @@ pub use recording::{
 };
 pub use rect::Rect;
 pub use reflect::{Extent, ReflectError, Reflection, ResourceBinding, ResourceKind, SpecConstant, Stage, reflect};
+pub use requirements::Enabled;
 pub use sampler::{Filter, Sampler, SamplerDesc, Wrap};
 pub use shader::Shader;
 pub use submission::Submission;

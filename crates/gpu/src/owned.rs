@@ -14,6 +14,8 @@ use crate::instance::Instance;
 pub(crate) struct RawDevice {
     pub(crate) raw: ash::Device,
     pub(crate) debug: Option<ext::debug_utils::Device>,
+    /// Whether it belongs to somebody else, who destroys it, and whose commands its queue runs too.
+    pub(crate) is_borrowed: bool,
     /// Kept so that the instance outlives its device; after `raw` because Rust drops fields in order of declaration
     /// once `Drop::drop` has destroyed the device.
     _instance: Arc<Instance>,
@@ -22,8 +24,17 @@ pub(crate) struct RawDevice {
 impl RawDevice {
     /// Takes ownership of `raw`, a child of `instance`.
     pub(crate) fn new(instance: Arc<Instance>, raw: ash::Device) -> Self {
+        Self::wrap(instance, raw, false)
+    }
+
+    /// A device of somebody else's, who destroys it.
+    pub(crate) fn borrowed(instance: Arc<Instance>, raw: ash::Device) -> Self {
+        Self::wrap(instance, raw, true)
+    }
+
+    fn wrap(instance: Arc<Instance>, raw: ash::Device, is_borrowed: bool) -> Self {
         let debug = instance.debug_utils.then(|| ext::debug_utils::Device::new(&instance.raw, &raw));
-        Self { raw, debug, _instance: instance }
+        Self { raw, debug, is_borrowed, _instance: instance }
     }
 
     /// Gives a Vulkan object the name that tools and validation messages show.
@@ -37,6 +48,9 @@ impl RawDevice {
 
 impl Drop for RawDevice {
     fn drop(&mut self) {
+        if self.is_borrowed {
+            return;
+        }
         // SAFETY: every child object holds an Arc of self, so all are destroyed, and none is in use by the GPU because
         // submissions wait before they let go of what they use.
         unsafe { self.raw.destroy_device(None) }

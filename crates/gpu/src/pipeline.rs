@@ -80,7 +80,8 @@ impl Device {
     pub fn compute_pipeline(&self, desc: &ComputePipelineDesc<'_>) -> Result<ComputePipeline, GpuError> {
         self.check_stage(desc.name, desc.shader, Stage::Compute)?;
         let local_size = self.local_size(desc)?;
-        let layout = self.layout(desc.name, merge(desc.name, &[(desc.shader.name(), desc.shader.reflection())])?)?;
+        let layout =
+            self.layout(desc.name, merge(desc.name, &[(desc.shader.name(), desc.shader.reflection())])?, None)?;
         let stage = StageData::new(desc.shader, desc.specialization);
         let specialization = stage.specialization();
         let info = vk::ComputePipelineCreateInfo::default().stage(stage.info(&specialization)).layout(layout.raw.raw);

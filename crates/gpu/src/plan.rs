@@ -10,8 +10,8 @@ use std::{collections::HashMap, ops::Range, sync::Arc};
 use ash::vk;
 
 use crate::{
-    Buffer, CapturePass, Device, GpuError, Image, ImageRegion, Recording, Rect, RenderPass, ResourceKind, Sampler,
-    Vertices, barrier::Uses, pipeline::Pipeline, resource::ResourceId,
+    Buffer, CapturePass, Device, Draw, GpuError, Image, ImageRegion, Recording, Rect, RenderPass, ResourceKind,
+    Sampler, Vertices, barrier::Uses, pipeline::Pipeline, resource::ResourceId,
 };
 use planner::Planner;
 
@@ -51,6 +51,7 @@ pub(crate) enum Work<'a> {
     Dispatch { call: Call<'a>, groups: [u32; 3] },
     Render { pass: &'a RenderPass, area: Rect, draws: Vec<DrawCall<'a>> },
     Capture { pass: &'a CapturePass, size: u64, draws: Vec<DrawCall<'a>>, counter: Option<vk::Buffer> },
+    Write { target: vk::Buffer, offset: u64, data: &'a [u8] },
     CopyBuffer { source: vk::Buffer, target: vk::Buffer, region: vk::BufferCopy2<'static> },
     CopyFromImage { source: &'a ImageRegion, buffer: vk::Buffer, offset: u64 },
     CopyToImage { buffer: vk::Buffer, offset: u64, target: &'a ImageRegion },
@@ -99,11 +100,32 @@ impl<'a> Plan<'a> {
         let mut plan = Self::default();
         for pass in &recording.passes {
             let name = pass.name();
-            let mut planner = Planner { device, name: &name, kept: &mut plan.kept, uses: Uses::default() };
+            let (kept, uses) = (&mut plan.kept, Uses::default());
+            let mut planner = Planner { device, name: &name, kept, uses, has_caller_set: false };
             let work = planner.work(pass)?;
             let uses = planner.uses;
             plan.steps.push(Step { name, uses, work });
         }
         Ok(plan)
+    }
+}
+
+/// Draws alone, checked and resolved.
+pub(crate) struct DrawPlan<'a> {
+    pub(crate) draws: Vec<DrawCall<'a>>,
+    pub(crate) uses: Uses,
+    pub(crate) kept: Kept,
+}
+
+impl<'a> DrawPlan<'a> {
+    /// Checks and resolves draws for a rendering that somebody else begins.
+    pub(crate) fn new(device: &Device, draws: &'a [Draw], has_caller_set: bool) -> Result<Self, GpuError> {
+        let mut kept = Kept::default();
+        let uses = Uses::default();
+        let mut planner = Planner { device, name: "draws", kept: &mut kept, uses, has_caller_set };
+        let first = draws.first().map(|draw| draw.pipeline.targets);
+        let draws = planner.draws(draws, |targets| Some(targets) == first)?;
+        let uses = planner.uses;
+        Ok(Self { draws, uses, kept })
     }
 }

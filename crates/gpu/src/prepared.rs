@@ -94,6 +94,38 @@ impl Device {
     }
 }
 
+impl Device {
+    /// Commands that change layouts between submissions, if there is anything to change.
+    fn transitions(
+        &self,
+        queue: &mut Queue,
+        kept: &Kept,
+        images: Vec<Transition>,
+    ) -> Result<Option<Commands>, GpuError> {
+        if images.is_empty() {
+            return Ok(None);
+        }
+        let (commands, queries) = (self.begin(queue)?, Queries::none());
+        // SAFETY: the command buffer is of this device and in the recording state; the queue is locked, so that nobody else has
+        // it; our callers keep `kept` until it has run.
+        unsafe { Encoder::new(self, commands.buffer, kept, &queries) }.barriers(&Barriers { memory: None, images });
+        self.end(&commands)?;
+        Ok(Some(commands))
+    }
+
+    /// Submits changes of layouts, if there are any; the value that the timeline reaches then, and the commands.
+    pub(crate) fn submit_transitions(
+        &self,
+        queue: &mut Queue,
+        kept: &Kept,
+        images: Vec<Transition>,
+    ) -> Result<Option<(u64, Commands)>, GpuError> {
+        let Some(commands) = self.transitions(queue, kept, images)? else { return Ok(None) };
+        let value = self.enqueue(queue, &[vk::CommandBufferSubmitInfo::default().command_buffer(commands.buffer)])?;
+        Ok(Some((value, commands)))
+    }
+}
+
 impl Prepared {
     /// Hands the work to the GPU; waits first if the last run is still going on.
     pub fn submit(&mut self) -> Result<(), GpuError> {
@@ -133,18 +165,11 @@ impl Prepared {
     /// Commands that bring images into the layouts in which a run finds them, where others have left them in other ones.
     fn arrive(&self, queue: &mut Queue) -> Result<Option<Commands>, GpuError> {
         self.kept.images.values().try_for_each(Image::check_acquired)?;
+        self.kept.images.iter().try_for_each(|(id, image)| image.check_held(self.layouts[id]))?;
         let moved = self.kept.images.iter().filter(|(id, image)| image.layout() != self.layouts[id]);
         let images: Vec<Transition> =
             moved.map(|(id, image)| Transition::between(*id, image.layout(), self.layouts[id])).collect();
-        if images.is_empty() {
-            return Ok(None);
-        }
-        let commands = self.device.begin(queue)?;
-        // SAFETY: as in `prepare`; the queue is locked, so that nobody else has the command buffer.
-        unsafe { Encoder::new(&self.device, commands.buffer, &self.kept, &self.queries) }
-            .barriers(&Barriers { memory: None, images });
-        self.device.end(&commands)?;
-        Ok(Some(commands))
+        self.device.transitions(queue, &self.kept, images)
     }
 
     /// Waits, and gives spare commands back for others to use.

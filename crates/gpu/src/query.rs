@@ -100,6 +100,11 @@ impl Queries {
         Ok(Self { names: recording.passes.iter().map(Pass::name).collect(), timestamps, statistics, captures })
     }
 
+    /// None at all.
+    pub(crate) fn none() -> Self {
+        Self { names: Vec::new(), timestamps: None, statistics: None, captures: None }
+    }
+
     /// Every pool with its number of queries.
     pub(crate) fn pools(&self) -> impl Iterator<Item = (vk::QueryPool, u32)> + '_ {
         let timestamps = self.timestamps.iter().map(|pool| (pool.raw, self.names.len() as u32 + 1));

@@ -1,6 +1,8 @@
 //! A plan of GPU work: passes as plain data, in order. Nothing happens until [`Device::submit`](crate::Device::submit).
 
-use std::ops::Range;
+use std::{ops::Range, sync::Arc};
+
+use bytemuck::NoUninit;
 
 use crate::{Bindings, Buffer, ComputePipeline, GraphicsPipeline, Image, ImageRegion, Rect};
 
@@ -121,6 +123,7 @@ pub(crate) enum Pass {
     Compute(ComputePass),
     Render(RenderPass),
     Capture(CapturePass),
+    Write { data: Arc<[u8]>, target: Buffer, offset: u64 },
     CopyBuffer { source: Buffer, range: Range<u64>, target: Buffer, offset: u64 },
     CopyFromImage { source: ImageRegion, target: Buffer, offset: u64 },
     CopyToImage { source: Buffer, offset: u64, target: ImageRegion },
@@ -134,6 +137,7 @@ impl Pass {
             Self::Compute(pass) => pass.name.clone(),
             Self::Render(pass) => pass.name.clone(),
             Self::Capture(pass) => pass.name.clone(),
+            Self::Write { target, .. } => format!("write {}", target.name()),
             Self::CopyBuffer { source, target, .. } => format!("copy {} to {}", source.name(), target.name()),
             Self::CopyFromImage { source, target, .. } => format!("copy {} to {}", source.image.name(), target.name()),
             Self::CopyToImage { source, target, .. } => format!("copy {} to {}", source.name(), target.image.name()),
@@ -183,6 +187,14 @@ impl Recording {
     /// Adds a capture pass.
     pub fn capture(&mut self, pass: CapturePass) {
         self.passes.push(Pass::Capture(pass));
+    }
+
+    /// Adds a write of host data at `offset` bytes in a buffer of any memory; offset and size are multiples of 4. The data is part of
+    /// the recording, so that nothing waits for earlier work on the buffer: the way to change contents from frame to frame where
+    /// several frames are under way. A [`Prepared`](crate::Prepared) writes the same data in every run.
+    pub fn write<T: NoUninit>(&mut self, target: &Buffer, offset: u64, data: &[T]) {
+        let data = Arc::from(bytemuck::cast_slice::<T, u8>(data));
+        self.passes.push(Pass::Write { data, target: target.clone(), offset });
     }
 
     /// Adds a copy of a range of bytes to `offset` bytes in another buffer.

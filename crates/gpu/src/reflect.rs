@@ -148,6 +148,8 @@ pub struct Reflection {
     pub output_vertices: Option<u32>,
     /// Bytes per vertex written by transform feedback into buffer 0, if the shader declares capture.
     pub capture_stride: Option<u32>,
+    /// It uses descriptor set 1, which is the caller's; [`Device::caller_shader`](crate::Device::caller_shader) only.
+    pub uses_caller_set: bool,
 }
 
 /// Why a module cannot be used.
@@ -222,9 +224,18 @@ pub enum ReflectError {
 
 /// Reads what a module declares.
 pub fn reflect(words: &[u32]) -> Result<Reflection, ReflectError> {
+    read(words, false)
+}
+
+/// Reads what a module declares that may need any capability, and use a descriptor set 1, which is left out.
+pub(crate) fn reflect_of_caller(words: &[u32]) -> Result<Reflection, ReflectError> {
+    read(words, true)
+}
+
+fn read(words: &[u32], of_caller: bool) -> Result<Reflection, ReflectError> {
     // rspirv 0.13 panics on some malformed modules. It works on a copy of its own, which is lost then.
     let parsed = std::panic::catch_unwind(|| rspirv::dr::load_words(words).map_err(|state| state.to_string()));
     let module = parsed.unwrap_or_else(|_| Err("the parser gave up".to_owned()));
     let module = module.map_err(|reason| ReflectError::Parse { reason })?;
-    reader::Reader::new(&module).read()
+    reader::Reader::new(&module, of_caller).read()
 }

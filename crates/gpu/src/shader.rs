@@ -4,7 +4,13 @@ use std::sync::Arc;
 
 use ash::vk;
 
-use crate::{Device, GpuError, Reflection, Stage, info::TRANSFORM_FEEDBACK, owned::Owned, reflect};
+use crate::{
+    Device, GpuError, ReflectError, Reflection, Stage,
+    info::{TESSELLATION, TRANSFORM_FEEDBACK},
+    owned::Owned,
+    reflect,
+    reflect::reflect_of_caller,
+};
 
 /// A compiled shader with one entry point. Clones share it.
 #[derive(Clone)]
@@ -29,8 +35,27 @@ impl Device {
     /// `Shader`, `DerivativeControl`, `Tessellation` and `TransformFeedback` (64-bit numbers, `gl_PrimitiveID` in
     /// fragment shaders, clip distances, subgroups and so on) are refused.
     pub fn shader(&self, name: &str, spirv: &[u32]) -> Result<Shader, GpuError> {
-        let reflection = reflect(spirv).map_err(|source| GpuError::Shader { shader: name.to_owned(), source })?;
-        self.check_capture(name, &reflection)?;
+        self.reflected_shader(name, spirv, reflect(spirv))
+    }
+
+    /// Makes a shader that may need any capability of SPIR-V, and have a descriptor set 1: for pipelines with
+    /// [`GraphicsPipelineDesc::caller_set`](crate::GraphicsPipelineDesc::caller_set).
+    ///
+    /// # Safety
+    /// The device was created with the features and extensions that the module needs; `DeviceDesc` switches on none but those of
+    /// [`Features`](crate::Features). Invalid accesses of what set 1 holds are the author's business.
+    pub unsafe fn caller_shader(&self, name: &str, spirv: &[u32]) -> Result<Shader, GpuError> {
+        self.reflected_shader(name, spirv, reflect_of_caller(spirv))
+    }
+
+    fn reflected_shader(
+        &self,
+        name: &str,
+        spirv: &[u32],
+        reflection: Result<Reflection, ReflectError>,
+    ) -> Result<Shader, GpuError> {
+        let reflection = reflection.map_err(|source| GpuError::Shader { shader: name.to_owned(), source })?;
+        self.check_features(name, &reflection)?;
         let info = vk::ShaderModuleCreateInfo::default().code(spirv);
         // SAFETY: the code is a whole number of words and was parsed; its validity is documented as the caller's part.
         let raw = unsafe { self.raw().create_shader_module(&info, None) }
@@ -39,8 +64,12 @@ impl Device {
         Ok(Shader { inner: Arc::new(Inner { raw, name: name.to_owned(), reflection, device: self.clone() }) })
     }
 
-    /// Fails unless the device can capture what the shader declares for capture, if anything.
-    fn check_capture(&self, name: &str, reflection: &Reflection) -> Result<(), GpuError> {
+    /// Fails unless the device has the shader's stage, and can capture what it declares for capture, if anything.
+    fn check_features(&self, name: &str, reflection: &Reflection) -> Result<(), GpuError> {
+        let tessellates = matches!(reflection.stage, Stage::TessellationControl | Stage::TessellationEvaluation);
+        if tessellates && !self.info().features.tessellation {
+            return Err(self.missing(format!("shader {name:?}"), TESSELLATION));
+        }
         let Some(stride) = reflection.capture_stride else { return Ok(()) };
         if !self.info().features.transform_feedback {
             return Err(self.missing(format!("shader {name:?}"), TRANSFORM_FEEDBACK));

@@ -60,6 +60,7 @@ impl Device {
         let layouts: HashMap<ResourceId, _> =
             plan.kept.images.iter().map(|(id, image)| (*id, image.layout())).collect();
         let (barriers, layouts) = derive(plan.steps.iter().map(|step| step.uses.as_slice()), &layouts);
+        plan.kept.images.iter().try_for_each(|(id, image)| image.check_held(layouts[id]))?;
         let commands = self.begin(&mut queue)?;
         // SAFETY: `begin` put the command buffer of this device into the recording state, nobody else has it, and the
         // submission that our caller makes keeps `kept` and `queries` until the commands have run.

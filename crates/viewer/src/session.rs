@@ -104,6 +104,7 @@ impl Session {
             validation: desc.validation,
             application: "osculate".to_owned(),
             windows: Some(WindowSystem::of(&*window)?),
+            ..DeviceDesc::default()
         })?;
         let formats = [Format::Bgra8Unorm, Format::Rgba8Unorm, Format::Bgra8Srgb, Format::Rgba8Srgb];
         let mode = state.settings.screen.mode;

@@ -4,7 +4,7 @@ use std::ops::Range;
 
 use ash::vk;
 
-use crate::{Buffer, GpuError, Image, ImageRegion, ImageUsage, barrier::Scope};
+use crate::{Buffer, GpuError, Image, ImageRegion, ImageUsage, Memory, barrier::Scope};
 
 use super::{Work, planner::Planner};
 
@@ -13,7 +13,28 @@ const COPY: vk::PipelineStageFlags2 = vk::PipelineStageFlags2::COPY;
 const READ: vk::AccessFlags2 = vk::AccessFlags2::TRANSFER_READ;
 const WRITE: vk::AccessFlags2 = vk::AccessFlags2::TRANSFER_WRITE;
 
+/// What Vulkan calls an update, by whatever stage: specifications differ on whether it is a copy.
+const UPDATE: vk::PipelineStageFlags2 = vk::PipelineStageFlags2::ALL_TRANSFER;
+/// Most bytes that a command buffer holds itself.
+const MAX_UPDATE: usize = 65_536;
+
 impl Planner<'_> {
+    /// Little data goes into the command buffer, more into a staging buffer of its own.
+    pub(super) fn write<'a>(&mut self, data: &'a [u8], target: &Buffer, offset: u64) -> Result<Work<'a>, GpuError> {
+        let size = data.len() as u64;
+        target.check(offset..offset.saturating_add(size), self.name)?;
+        if !offset.is_multiple_of(4) || !size.is_multiple_of(4) {
+            return Err(self.refuse(&format!("it writes {size} bytes at {offset}, not both multiples of 4")));
+        }
+        if data.len() > MAX_UPDATE {
+            let staging = self.device.staging(target.name(), size, Memory::Upload)?;
+            staging.write(0, data)?;
+            return self.copy_buffer(&staging, 0..size, target, offset);
+        }
+        self.touch_buffer(target, Scope::default(), Scope::new(UPDATE, WRITE))?;
+        Ok(Work::Write { target: target.raw(), offset, data })
+    }
+
     pub(super) fn copy_buffer(
         &mut self,
         source: &Buffer,

@@ -21,6 +21,8 @@ pub(super) struct Planner<'p> {
     pub(super) name: &'p str,
     pub(super) kept: &'p mut Kept,
     pub(super) uses: Uses,
+    /// Whether pipelines get a descriptor set of the caller's.
+    pub(super) has_caller_set: bool,
 }
 
 impl Planner<'_> {
@@ -29,6 +31,7 @@ impl Planner<'_> {
             Pass::Compute(pass) => self.compute(pass),
             Pass::Render(pass) => self.render(pass),
             Pass::Capture(pass) => self.capture(pass),
+            Pass::Write { data, target, offset } => self.write(data, target, *offset),
             Pass::CopyBuffer { source, range, target, offset } => {
                 self.copy_buffer(source, range.clone(), target, *offset)
             }
@@ -94,6 +97,7 @@ impl Planner<'_> {
             depth: depth.map(Image::format),
             samples: first.samples(),
             discard: false,
+            of_caller: false,
         })
     }
 
@@ -132,7 +136,7 @@ impl Planner<'_> {
 
     fn capture<'a>(&mut self, pass: &'a CapturePass) -> Result<Work<'a>, GpuError> {
         pass.buffer.require(BufferUsage::CAPTURE, self.name)?;
-        let none = Targets { color: None, depth: None, samples: 1, discard: true };
+        let none = Targets { color: None, depth: None, samples: 1, discard: true, of_caller: false };
         let draws = self.draws(&pass.draws, |pipeline| pipeline == none)?;
         if let Some(draw) = pass.draws.iter().find(|draw| draw.pipeline.capture_stride().is_none()) {
             return Err(
@@ -167,7 +171,11 @@ impl Planner<'_> {
     }
 
     /// Resolves draws whose pipelines pass the test of their targets.
-    fn draws<'a>(&mut self, draws: &'a [Draw], fits: impl Fn(Targets) -> bool) -> Result<Vec<DrawCall<'a>>, GpuError> {
+    pub(super) fn draws<'a>(
+        &mut self,
+        draws: &'a [Draw],
+        fits: impl Fn(Targets) -> bool,
+    ) -> Result<Vec<DrawCall<'a>>, GpuError> {
         let mut previous: Option<(&'a Pipeline, &'a Bindings)> = None;
         let mut calls = Vec::with_capacity(draws.len());
         for draw in draws {
@@ -178,6 +186,10 @@ impl Planner<'_> {
                     draw.pipeline.targets
                 );
                 return Err(self.refuse(&reason));
+            }
+            if draw.pipeline.inner.layout.has_caller_set && !self.has_caller_set {
+                let name = draw.pipeline.name();
+                return Err(self.refuse(&format!("pipeline {name:?} wants a descriptor set 1, see gpu::EncodeDraws")));
             }
             let call = self.call(&draw.pipeline.inner, &draw.bindings, &draw.push, previous)?;
             previous = Some((call.pipeline, &draw.bindings));

@@ -36,10 +36,12 @@ pub(super) struct Reader<'a> {
     names: HashMap<Word, &'a str>,
     decorations: HashMap<Word, Vec<Decorated>>,
     globals: HashMap<Word, &'a Instruction>,
+    /// Whether it may use what its author has switched on, and a descriptor set 1 of theirs.
+    of_caller: bool,
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn new(module: &'a Module) -> Self {
+    pub(super) fn new(module: &'a Module, of_caller: bool) -> Self {
         let mut decorations: HashMap<Word, Vec<Decorated>> = HashMap::new();
         for (target, decorated) in module.annotations.iter().filter_map(decorated) {
             decorations.entry(target).or_default().push(decorated);
@@ -51,7 +53,7 @@ impl<'a> Reader<'a> {
             _ => None,
         });
         let globals = module.types_global_values.iter().filter_map(|one| Some((one.result_id?, one)));
-        Self { module, names: names.collect(), decorations, globals: globals.collect() }
+        Self { module, names: names.collect(), decorations, globals: globals.collect(), of_caller }
     }
 
     pub(super) fn read(&self) -> Result<Reflection, ReflectError> {
@@ -62,7 +64,9 @@ impl<'a> Reader<'a> {
             [Operand::ExecutionModel(model), _, Operand::LiteralString(name), ..] => (stage(*model)?, name.clone()),
             _ => return Err(malformed("the entry point has no name")),
         };
-        self.check_capabilities()?;
+        if !self.of_caller {
+            self.check_capabilities()?;
+        }
         let resources = self.resources()?;
         if let Some(written) = resources.iter().find(|one| one.writes && stage != Stage::Compute) {
             return Err(ReflectError::Write { name: written.name.clone(), stage });
@@ -76,6 +80,7 @@ impl<'a> Reader<'a> {
             local_size: if stage == Stage::Compute { Some(self.local_size()?) } else { None },
             output_vertices: if stage == Stage::TessellationControl { self.output_vertices() } else { None },
             capture_stride: self.capture_stride(),
+            uses_caller_set: self.uses_caller_set()?,
         })
     }
 
@@ -123,8 +128,20 @@ impl<'a> Reader<'a> {
         Ok(resources)
     }
 
-    /// The buffer or image that a variable stands for; `None` if it is no resource.
+    /// Whether a variable is in descriptor set 1, and may be.
+    fn is_of_caller(&self, id: Word) -> bool {
+        self.of_caller && self.value(id, None, Decoration::DescriptorSet) == Some(1)
+    }
+
+    fn uses_caller_set(&self) -> Result<bool, ReflectError> {
+        self.variables().try_fold(false, |found, variable| Ok(found || self.is_of_caller(variable?.0)))
+    }
+
+    /// The buffer or image that a variable stands for; `None` if it is no resource, or the caller's.
     fn resource(&self, id: Word, class: StorageClass, pointee: Word) -> Result<Option<ResourceBinding>, ReflectError> {
+        if self.is_of_caller(id) {
+            return Ok(None);
+        }
         let name = self.block_name(id, pointee);
         let kind = match class {
             StorageClass::StorageBuffer => ResourceKind::StorageBuffer,

@@ -1,10 +1,11 @@
 //! Opening devices, and the pipeline cache.
 
 use osculate_gpu::{
-    ComputePipelineDesc, Device, DeviceDesc, DeviceError, GraphicsPipeline, Recording, Shader, Submission, devices,
+    ComputePipelineDesc, Device, DeviceDesc, DeviceError, Features, GpuError, GraphicsPipeline, Recording, Shader,
+    Submission, devices,
 };
 
-use crate::harness::{open, shader, with_device};
+use crate::harness::{open, shader, spirv, with_device};
 
 #[test]
 fn the_open_device_is_one_of_the_list() {
@@ -46,6 +47,35 @@ fn without_validation_there_are_no_messages() {
     let device = open(false);
     device.run(&Recording::new()).unwrap();
     assert!(device.validation_messages().is_empty());
+}
+
+/// What was left off is off for good: limits are 0, and what needs it is refused with its name, before Vulkan hears of it.
+#[test]
+fn a_device_can_be_opened_with_fewer_features() {
+    let select = std::env::var("OSCULATE_DEVICE").ok();
+    let desc = DeviceDesc { select, validation: true, without: Features::ALL, ..DeviceDesc::default() };
+    let device = Device::new(&desc).unwrap();
+    let log = device.message_log();
+    let info = device.info();
+    assert_eq!(info.features, Features::default());
+    let limits = &info.limits;
+    assert_eq!([limits.max_patch_vertices, limits.max_tessellation_level, limits.max_capture_stride], [0; 3]);
+    for (name, needs, source) in [
+        ("control.tesc", "tessellationShader", "layout(vertices = 1) out; void main() { gl_TessLevelOuter[0] = 1.0; }"),
+        ("evaluation.tese", "tessellationShader", "layout(quads) in; void main() { gl_Position = vec4(0.0); }"),
+        (
+            "capture.vert",
+            "VK_EXT_transform_feedback",
+            "layout(location = 0, xfb_buffer = 0, xfb_stride = 4, xfb_offset = 0) out float x; void main() { x = 1.0; }",
+        ),
+    ] {
+        let error = device.shader(name, &spirv(name, source)).unwrap_err();
+        assert!(matches!(error, GpuError::MissingFeature { .. }), "{error}");
+        assert!(error.to_string().contains(needs) && error.to_string().contains(name), "{error}");
+    }
+    device.run(&Recording::new()).unwrap();
+    drop(device);
+    assert!(log.all().is_empty(), "{:?}", log.all());
 }
 
 #[test]

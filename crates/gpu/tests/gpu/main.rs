@@ -5,6 +5,7 @@
 mod capture;
 mod compute;
 mod device;
+mod embed;
 mod harness;
 mod prepared;
 mod present;

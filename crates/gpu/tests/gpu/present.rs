@@ -27,6 +27,7 @@ fn with_window(test: impl FnOnce(&Device, &Window, &mut Presenter)) {
         validation: true,
         application: "osculate-gpu tests".to_owned(),
         windows: Some(WindowSystem::of(&*window).unwrap()),
+        ..DeviceDesc::default()
     })
     .unwrap();
     let log = device.message_log();
