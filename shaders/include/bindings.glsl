@@ -35,4 +35,7 @@
 #define BINDING_HEIGHTS 30
 #define BINDING_COLORS 31
 
+// Where buffers and images of fragment shaders from elsewhere begin (material.glsl).
+#define BINDING_CALLER 64
+
 #endif

@@ -74,7 +74,10 @@
 #define WRAP_MIRROR 2
 #define WRAP_BITS 2
 
-// Specialization constants.
+// Where push constants of fragment shaders from elsewhere begin (material.glsl), in bytes.
+#define MATERIAL_PUSH_OFFSET 32
+
+// Specialization constants; those of fragment shaders from elsewhere are 16 and above.
 #define SPEC_NET_SIZE 0
 #define SPEC_SHADE 1
 #define SPEC_GRID_GROUP 2

@@ -36,6 +36,8 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
     float cull_samples;
     // CULL_*
     uint cull;
+    // The caller's world from cage space, or the cage's own coordinates.
+    mat4 world_from_cage;
 } frame;
 
 // SHADE_*

@@ -142,6 +142,47 @@ impl SurfaceBuffers {
     }
 }
 
+impl SurfaceBuffers {
+    /// The same tables around points, records and coefficients of another surface, of which nothing is computed yet.
+    pub(crate) fn twin(&self, device: &Device) -> Result<Self, EngineError> {
+        let mut up = Uploader::new(device);
+        let mut like = |buffer: &Buffer| up.floats(buffer.name(), buffer.size() / 4);
+        let (points, vertex_records) = (like(&self.points)?, like(&self.vertex_records)?);
+        let (edge_records, coefficients) = (like(&self.edge_records)?, like(&self.coefficients)?);
+        let pose = Bindings::new()
+            .with(binding::POINTS, &points)
+            .with(binding::VERTEX_RECORDS, &vertex_records)
+            .with(binding::EDGE_RECORDS, &edge_records)
+            .with(binding::COEFFICIENTS, &coefficients);
+        let posed = |tables: &Bindings| tables.clone().with_all(&pose);
+        let level = |level: &LevelBuffers| LevelBuffers {
+            face: posed(&level.face),
+            edge: posed(&level.edge),
+            vertex: posed(&level.vertex),
+        };
+        let (size, usage, memory) = (self.staging.size(), BufferUsage::STORAGE, Memory::Upload);
+        Ok(Self {
+            staging: device.buffer(&BufferDesc { name: self.staging.name(), size, usage, memory })?,
+            levels: self.levels.iter().map(level).collect(),
+            phantom: posed(&self.phantom),
+            vertex_regular: posed(&self.vertex_regular),
+            vertex_general: posed(&self.vertex_general),
+            edge_regular: posed(&self.edge_regular),
+            edge_general: posed(&self.edge_general),
+            edge_gathered: posed(&self.edge_gathered),
+            patch_gathered: posed(&self.patch_gathered),
+            projections: posed(&self.projections),
+            patches: posed(&self.patches),
+            cage_edges: posed(&self.cage_edges),
+            points,
+            vertex_records,
+            edge_records,
+            coefficients,
+            bytes: up.bytes,
+        })
+    }
+}
+
 fn staging(device: &Device, plan: &SurfacePlan) -> Result<Buffer, EngineError> {
     let size = 12 * u64::from(plan.cage_points);
     let desc = BufferDesc { name: "cage points", size, usage: BufferUsage::STORAGE, memory: Memory::Upload };

@@ -1,5 +1,7 @@
 //! Pipelines and draws of patch lists.
 
+use std::sync::Arc;
+
 use bytemuck::bytes_of;
 use osculate_gpu::{
     Bindings, Blend, Compare, DepthBias, DepthState, Draw, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode, Shader,
@@ -9,6 +11,7 @@ use osculate_shaders::{constant, layout::PatchPush};
 use osculate_subdiv::{PatchForm, PatchKind, PatchList};
 
 use crate::culling::overshoot;
+use crate::material::{Inner as MaterialInner, MaterialId};
 use crate::{Engine, EngineError, Factors, Shade, Spacing, Surface, Target, Tessellation};
 
 /// What becomes of tessellated patches.
@@ -18,6 +21,8 @@ pub(crate) enum Output {
     Fill(Target, Shade),
     /// The edges of the triangles.
     Lines(Target),
+    /// Filled triangles in a material, whose vertices hold what those of the shade do.
+    Material(MaterialId, Shade),
     /// Captured by transform feedback.
     Capture,
 }
@@ -26,9 +31,19 @@ impl Output {
     /// The `SHADE_*` constant that shaders are specialized for.
     fn shade(self) -> u32 {
         match self {
-            Self::Fill(_, shade) => shade.constant(),
+            Self::Fill(_, shade) | Self::Material(_, shade) => shade.constant(),
             Self::Lines(_) => constant::SHADE_WIREFRAME,
             Self::Capture => constant::SHADE_NONE,
+        }
+    }
+}
+
+impl Output {
+    /// The material of the triangles, if they have one.
+    fn material(self, engine: &Engine) -> Result<Option<Arc<MaterialInner>>, EngineError> {
+        match self {
+            Self::Material(id, _) => engine.materials().get(id).map(Some),
+            _ => Ok(None),
         }
     }
 }
@@ -84,6 +99,15 @@ fn patch_points(kind: PatchKind) -> u32 {
 }
 
 impl PipelineKey {
+    /// The material that it is made for, if any.
+    pub(crate) fn material(self) -> Option<MaterialId> {
+        match self {
+            Self::Patches { output: Output::Material(id, _), .. }
+            | Self::Grid { output: Output::Material(id, _), .. } => Some(id),
+            _ => None,
+        }
+    }
+
     pub(crate) fn make(self, engine: &Engine) -> Result<GraphicsPipeline, EngineError> {
         match self {
             Self::Patches { kind, division, output, mapped } => make_patches(engine, kind, division, output, mapped),
@@ -106,8 +130,9 @@ fn make_patches(
     let control = engine.shader(&control)?;
     let maps = if mapped { ",mapped" } else { "" };
     let evaluation = engine.shader(&format!("{evaluation}#{}{capture}{maps}", division.spacing.variant()))?;
+    let material = output.material(engine)?;
     let fragment = fragment(engine, output, mapped)?;
-    let name = patches_name(kind, division, output) + mapped_name(mapped);
+    let name = patches_name(kind, division, output) + mapped_name(mapped) + &material_name(&material);
     let specialization = [
         (constant::SPEC_NET_SIZE, patch_points(kind)),
         (constant::SPEC_SHADE, output.shade()),
@@ -121,7 +146,7 @@ fn make_patches(
         specialization: &specialization,
         ..GraphicsPipelineDesc::new(&name, &vertex)
     };
-    Ok(engine.device().graphics_pipeline(&with_output(desc, output))?)
+    Ok(engine.device().graphics_pipeline(&with_output(desc, output, material.as_deref()))?)
 }
 
 /// What tools call the pipeline of patches.
@@ -142,8 +167,13 @@ fn output_name(output: Output) -> String {
     match output {
         Output::Fill(to, shade) => format!("fill {} {}", shade.name(), target(to)),
         Output::Lines(to) => format!("lines {}", target(to)),
+        Output::Material(..) => "material".to_owned(),
         Output::Capture => "capture".to_owned(),
     }
+}
+
+fn material_name(material: &Option<Arc<MaterialInner>>) -> String {
+    material.as_ref().map_or_else(String::new, |material| format!(", {}", material.name()))
 }
 
 fn mapped_name(mapped: bool) -> &'static str {
@@ -155,24 +185,33 @@ fn fragment(engine: &Engine, output: Output, mapped: bool) -> Result<Option<Shad
         Output::Fill(..) if mapped => Ok(Some(engine.shader("shade/surface.frag#mapped")?)),
         Output::Fill(..) => Ok(Some(engine.shader("shade/surface.frag")?)),
         Output::Lines(_) => Ok(Some(engine.shader("shade/wire.frag")?)),
+        Output::Material(id, _) => Ok(engine.materials().get(id)?.fragment().cloned()),
         Output::Capture => Ok(None),
     }
 }
 
 fn make_grid(engine: &Engine, output: Output, mapped: bool) -> Result<GraphicsPipeline, EngineError> {
     let vertex = engine.shader("shade/grid.vert")?;
+    let material = output.material(engine)?;
     let fragment = fragment(engine, output, mapped)?;
-    let name = format!("grid, {}{}", output_name(output), mapped_name(mapped));
+    let name = format!("grid, {}{}{}", output_name(output), mapped_name(mapped), material_name(&material));
     let desc = GraphicsPipelineDesc {
         fragment: fragment.as_ref(),
         topology: Topology::Triangles,
         specialization: &[(constant::SPEC_SHADE, output.shade())],
         ..GraphicsPipelineDesc::new(&name, &vertex)
     };
-    Ok(engine.device().graphics_pipeline(&with_output(desc, output))?)
+    Ok(engine.device().graphics_pipeline(&with_output(desc, output, material.as_deref()))?)
 }
 
-fn with_output<'a>(desc: GraphicsPipelineDesc<'a>, output: Output) -> GraphicsPipelineDesc<'a> {
+fn with_output<'a>(
+    desc: GraphicsPipelineDesc<'a>,
+    output: Output,
+    material: Option<&'a MaterialInner>,
+) -> GraphicsPipelineDesc<'a> {
+    if let Some(material) = material {
+        return material.complete(desc);
+    }
     let drawn = |target: Target, polygon_mode, depth| GraphicsPipelineDesc {
         polygon_mode,
         depth: Some(depth),
@@ -189,7 +228,7 @@ fn with_output<'a>(desc: GraphicsPipelineDesc<'a>, output: Output) -> GraphicsPi
             let depth = DepthState { bias, ..upon_fill() };
             GraphicsPipelineDesc { blend: Blend::Alpha, ..drawn(target, PolygonMode::Line, depth) }
         }
-        Output::Capture => GraphicsPipelineDesc { rasterizer_discard: true, ..desc },
+        Output::Capture | Output::Material(..) => GraphicsPipelineDesc { rasterizer_discard: true, ..desc },
     }
 }
 

@@ -3,6 +3,7 @@
 use osculate_gpu::{Bindings, Buffer, BufferUsage, Draw, Recording};
 use osculate_shaders::binding;
 
+use crate::draw::Output;
 use crate::evaluate::{GridChunk, Grids};
 use crate::grid::GridRates;
 use crate::look::Look;
@@ -82,7 +83,7 @@ pub struct Drawing {
 }
 
 /// All chunks of the compute evaluator's vertices and triangles.
-struct ResidentGrids {
+pub(crate) struct ResidentGrids {
     rates: GridRates,
     /// The passes that evaluate them.
     passes: Recording,
@@ -204,7 +205,7 @@ impl Drawing {
         let (desc, (camera, size)) = (self.desc, self.culled_for);
         let look = desc.look((&camera, size));
         let mut draws = Vec::new();
-        if self.desc.tessellation.renders_in_compute() {
+        if self.desc.tessellation.renders_in_compute(self.surface.engine().device()) {
             let rates = self.surface.grid_rates(&self.desc.tessellation)?;
             if self.grids.as_ref().is_some_and(|known| known.rates == rates) {
                 return Ok(DrawPlan::Kept);
@@ -212,7 +213,10 @@ impl Drawing {
             // The old ones go first: there may not be room for both.
             self.draws.clear();
             self.grids = None;
-            self.grids = Some(ResidentGrids::new(&self.surface, rates, look, &self.frame, &mut draws)?);
+            self.grids = {
+                let outputs: Vec<Output> = look.outputs().collect();
+                Some(ResidentGrids::new(&self.surface, rates, look.shade, &outputs, &self.frame, &mut draws)?)
+            };
         } else {
             draws = look.patches(&self.surface, &self.frame)?;
         }
@@ -253,7 +257,7 @@ impl Drawing {
     /// Triangles and vertices of the compute evaluator; `None` for the tessellator, which tells by
     /// [`PassStatistics`](osculate_gpu::PassStatistics) alone.
     pub fn grid_counts(&self) -> Option<[u64; 2]> {
-        self.grids.as_ref().map(|grids| [grids.triangles, grids.vertices])
+        self.grids.as_ref().map(ResidentGrids::counts)
     }
 
     /// Bytes on the device beyond those of the surface.
@@ -265,16 +269,17 @@ impl Drawing {
 
 impl ResidentGrids {
     /// Plans all chunks, uploads their triangles, and adds their draws.
-    fn new(
+    pub(crate) fn new(
         surface: &Surface,
         rates: GridRates,
-        look: Look<'_>,
+        shade: Shade,
+        outputs: &[Output],
         frame: &Buffer,
         draws: &mut Vec<Draw>,
     ) -> Result<Self, EngineError> {
         let mut passes = Recording::new();
         let (mut triangles, mut vertices, mut bytes) = (0, 0, 0);
-        let grids = Grids::drawn(surface, &rates, look.shade)?;
+        let grids = Grids::drawn(surface, &rates, shade)?;
         let mut chunks: Vec<(GridChunk, Buffer)> = Vec::new();
         for chunk in grids.chunks() {
             let chunk = chunk?;
@@ -285,11 +290,30 @@ impl ResidentGrids {
             bytes += chunk.bytes() + indices.size();
             chunks.push((chunk.without_indices(), indices));
         }
-        for output in look.outputs() {
+        for &output in outputs {
             for (chunk, indices) in &chunks {
                 draws.push(grids.draw(chunk, indices, frame, output)?);
             }
         }
         Ok(Self { rates, passes, triangles, vertices, bytes })
+    }
+
+    /// How the edges are divided.
+    pub(crate) fn rates(&self) -> &GridRates {
+        &self.rates
+    }
+
+    /// The passes that evaluate the vertices.
+    pub(crate) fn passes(&self) -> &Recording {
+        &self.passes
+    }
+
+    /// Triangles and vertices.
+    pub(crate) fn counts(&self) -> [u64; 2] {
+        [self.triangles, self.vertices]
+    }
+
+    pub(crate) fn bytes(&self) -> u64 {
+        self.bytes
     }
 }

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use osculate_gpu::Device;
 use osculate_shaders::{ShaderSet, constant};
 
+use crate::material::Materials;
 use crate::pipelines::{PipelineObserver, Pipelines};
 
 /// A device, the shaders, and the pipelines made so far: each is made when a cage first needs it. Clones share them.
@@ -40,6 +41,7 @@ struct Inner {
     device: Device,
     desc: EngineDesc,
     pipelines: Pipelines,
+    materials: Materials,
 }
 
 impl Drop for Inner {
@@ -57,7 +59,7 @@ impl Engine {
     /// An engine with other shaders or limits, or with a cache of pipelines.
     pub fn with(device: Device, desc: EngineDesc) -> Self {
         let pipelines = Pipelines::new(&device, desc.pipeline_cache.clone());
-        Self { inner: Arc::new(Inner { device, desc, pipelines }) }
+        Self { inner: Arc::new(Inner { device, desc, pipelines, materials: Materials::default() }) }
     }
 
     /// The device.
@@ -67,6 +69,10 @@ impl Engine {
 
     pub(crate) fn desc(&self) -> &EngineDesc {
         &self.inner.desc
+    }
+
+    pub(crate) fn materials(&self) -> &Materials {
+        &self.inner.materials
     }
 
     pub(crate) fn pipelines(&self) -> &Pipelines {

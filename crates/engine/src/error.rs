@@ -98,6 +98,23 @@ pub enum EngineError {
         /// The level asked for.
         level: f32,
     },
+    /// A material does not go with what it is given.
+    #[error("material {name:?}: {reason}")]
+    Material {
+        /// Its name.
+        name: String,
+        /// What is wrong.
+        reason: String,
+    },
+    /// A material of another engine.
+    #[error("the material belongs to another engine")]
+    NoMaterial,
+    /// A surface cannot be drawn where it stands, or not as it is asked for.
+    #[error("the instance cannot be drawn: {reason}")]
+    Placement {
+        /// Why not, and what to do.
+        reason: String,
+    },
     /// A shade that compares two surfaces was asked for with one.
     #[error("the shade difference compares two surfaces: draw it with render_difference")]
     OneSurface,

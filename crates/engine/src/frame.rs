@@ -32,7 +32,7 @@ pub(crate) struct CullView<'a> {
     pub(crate) samples: u32,
 }
 
-fn columns(m: DMat4) -> [[f32; 4]; 4] {
+pub(crate) fn columns(m: DMat4) -> [[f32; 4]; 4] {
     m.as_mat4().to_cols_array_2d()
 }
 
@@ -61,6 +61,7 @@ impl FrameDesc<'_> {
             cull_viewport: [1.0; 2],
             cull_samples: 1.0,
             cull: 0,
+            world_from_cage: columns(self.space.leaving()),
         };
         if let Some(CullView { culling, camera, size, samples }) = self.culling {
             frame.cull_clip_from_cage = columns(self.clip(camera, size));

@@ -12,8 +12,21 @@
 //! # }
 //! ```
 //!
-//! A [`Surface`] holds a cage's tables and points on the device; [`render()`], [`Surface::capture`], [`Surface::sample`] and [`check()`] draw it, hand out the
-//! triangles that the tessellator made, evaluate single points, and prove that no shared edge is open. A [`Drawing`] is what stays of it from frame to frame.
+//! # From a file to pictures and points
+//! * A [`Cage`] is read from OBJ, PLY, OFF, USD or glTF, or built by [`osculate_cage`].
+//! * An [`Engine`] is a device with the pipelines made on it so far. A [`Surface`] holds a cage's tables and points there, in one of the [`Scheme`]s; its
+//!   points are moved by [`Surface::set_points`] or by an [`Animator`], and it is painted and displaced by [`Surface::with_maps`].
+//! * [`render()`] makes a picture, [`Surface::capture`] hands out triangles, [`Surface::sample`] evaluates single points, and [`check()`] proves that no shared
+//!   edge is open. [`Tessellation`] says how finely, and whether the tessellator or compute kernels do it ([`Evaluator`]).
+//! * A [`Drawing`] is what stays of a surface from frame to frame in programs that let the library submit.
+//!
+//! # In a renderer of one's own
+//! [`Device::from_raw`] takes a program's own Vulkan device. A [`Material`] is the program's fragment shader with the attachments of its rendering, an
+//! [`Instance`] a surface that stands somewhere in its world, under a [`View`] by its matrices. [`Device::encode`] and [`Device::encode_draws`] write into its
+//! command buffers. The file docs/embedding.md of the repository walks through it, says what a device must have and what becomes of a program on a lesser
+//! one; `crates/engine/examples` has whole programs.
+
+#![forbid(unsafe_code)]
 
 mod alpha;
 mod animate;
@@ -31,10 +44,12 @@ mod error;
 mod evaluate;
 mod frame;
 mod grid;
+mod instance;
 mod kernels;
 mod keys;
 mod look;
 mod maps;
+mod material;
 mod memo;
 mod pipelines;
 mod render;
@@ -43,6 +58,7 @@ mod space;
 mod surface;
 mod targets;
 mod tessellation;
+mod view;
 
 pub use animate::Animator;
 pub use camera::{Camera, CameraError};
@@ -53,8 +69,10 @@ pub use difference::{Difference, render_difference};
 pub use drawing::{DrawPlan, Drawing, DrawingDesc};
 pub use engine::{Engine, EngineDesc};
 pub use error::EngineError;
+pub use instance::{Instance, InstanceDesc};
 pub use keys::VertexKey;
 pub use maps::{ColorMap, Coloring, Displacement, HeightMap, MapError, MapPlacement, MapsDesc, UvOrigin};
+pub use material::{Material, MaterialDesc, Varying, shader_include};
 pub use osculate_cage::{BoundaryRule, Cage};
 /// The device layer, for programs that put the library's passes and draws into recordings of their own.
 pub use osculate_gpu as gpu;
@@ -68,3 +86,4 @@ pub use space::CageSpace;
 pub use surface::{Surface, SurfaceDesc};
 pub use targets::{Target, Targets};
 pub use tessellation::{Evaluator, Factors, Spacing, Tessellation};
+pub use view::View;

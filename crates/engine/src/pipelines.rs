@@ -126,7 +126,7 @@ impl Engine {
     ) -> Result<(), EngineError> {
         let made = self.pipelines();
         let kernels = kernels.into_iter().map(Into::into).filter(|key| !made.kernels.has(key)).map(Need::Kernel);
-        let drawing = drawing.into_iter().filter(|key| !made.drawing.has(key)).map(Need::Drawing);
+        let drawing = drawing.into_iter().filter(|key| !self.has_pipeline(key)).map(Need::Drawing);
         let mut seen = HashSet::new();
         let missing: Vec<Need> = kernels.chain(drawing).filter(|need| seen.insert(*need)).collect();
         if missing.is_empty() {
@@ -178,7 +178,18 @@ impl Engine {
 
     /// The graphics pipeline of that key.
     pub(crate) fn pipeline(&self, key: PipelineKey) -> Result<GraphicsPipeline, EngineError> {
-        self.pipelines().drawing.get_or_make(key, || self.timed(|| key.make(self), GraphicsPipeline::name))
+        let make = || self.timed(|| key.make(self), GraphicsPipeline::name);
+        match key.material() {
+            Some(id) => self.materials().get(id)?.pipelines.get_or_make(key, make),
+            None => self.pipelines().drawing.get_or_make(key, make),
+        }
+    }
+
+    fn has_pipeline(&self, key: &PipelineKey) -> bool {
+        match key.material() {
+            Some(id) => self.materials().get(id).is_ok_and(|material| material.pipelines.has(key)),
+            None => self.pipelines().drawing.has(key),
+        }
     }
 
     /// Makes a pipeline and says how long it took.

@@ -86,13 +86,7 @@ impl Surface {
     /// # Errors
     /// If there are not as many points as the cage has, or one of them is not finite.
     pub fn write_points(&self, points: &[DVec3]) -> Result<(), EngineError> {
-        let expected = (self.buffers.staging.size() / 12) as usize;
-        if points.len() != expected {
-            return Err(EngineError::PointCount { expected, found: points.len() });
-        }
-        if let Some(vertex) = points.iter().position(|p| !p.is_finite()) {
-            return Err(EngineError::NotFinite { vertex });
-        }
+        self.check_points(points)?;
         // Piece by piece, so that moving a cage allocates nothing.
         let mut piece = [[0.0f32; 3]; 1024];
         for (first, points) in (0..).step_by(size_of_val(&piece)).zip(points.chunks(piece.len())) {
@@ -100,6 +94,48 @@ impl Surface {
             self.buffers.staging.write(first, &piece[..points.len()])?;
         }
         Ok(())
+    }
+
+    /// Another surface with the same tables: the same cage in another pose. Points, records and coefficients are its own, and so it moves by itself; the space that
+    /// the device computes in, and maps, are those of this one.
+    ///
+    /// # Errors
+    /// If there are not as many points as the cage has, one of them is not finite, or the device fails.
+    pub fn twin(&self, points: &[DVec3]) -> Result<Self, EngineError> {
+        let buffers = Arc::new(self.buffers.twin(self.engine.device())?);
+        let mut twin = Self { buffers, ..self.clone() };
+        twin.set_points(points)?;
+        Ok(twin)
+    }
+
+    /// Adds a write of new points and the passes that bring the surface up to date with them. The points become a part of the recording, so that nothing
+    /// waits, however many frames are under way: the way for recordings that are encoded into a caller's commands.
+    ///
+    /// # Errors
+    /// If there are not as many points as the cage has, one of them is not finite, or a pipeline cannot be made.
+    pub fn record_points(&self, recording: &mut Recording, points: &[DVec3]) -> Result<(), EngineError> {
+        self.check_points(points)?;
+        let points: Vec<[f32; 3]> = points.iter().map(|&p| self.space.enter(p).to_array()).collect();
+        recording.write(&self.buffers.points, 0, &points);
+        self.record_derived(recording)
+    }
+
+    /// The face of the cage on which each patch lies: for materials that differ from face to face, by the number of the patch that fragment shaders get.
+    pub fn patch_faces(&self) -> Vec<u32> {
+        let middle = [1.0 / 3.0; 2];
+        (0..self.plan.patches.len() as u32).map(|patch| self.place(patch, middle).sub_face.face).collect()
+    }
+
+    /// Fails unless there are as many points as the cage has, all of them finite.
+    fn check_points(&self, points: &[DVec3]) -> Result<(), EngineError> {
+        let expected = (self.buffers.staging.size() / 12) as usize;
+        if points.len() != expected {
+            return Err(EngineError::PointCount { expected, found: points.len() });
+        }
+        match points.iter().position(|p| !p.is_finite()) {
+            Some(vertex) => Err(EngineError::NotFinite { vertex }),
+            None => Ok(()),
+        }
     }
 
     /// Adds the passes that bring the surface up to date with the points of [`Self::write_points`].

@@ -100,6 +100,8 @@ shared_structs! {
         pub cull_samples: f32,
         /// Which patches are left out: `CULL_*` bits.
         pub cull: u32,
+        /// The caller's world from cage space, or the cage's own coordinates; by columns.
+        pub world_from_cage: [[f32; 4]; 4],
     }
 
     /// The part of a patch list that one draw renders (`shaders/include/patch_push.glsl`).
