@@ -83,5 +83,6 @@
 #define SPEC_GRID_GROUP 2
 #define SPEC_ADAPTIVE 3
 #define SPEC_CULLS 4
+#define SPEC_MATERIAL 5
 
 #endif

@@ -43,9 +43,12 @@ layout(std140, set = 0, binding = BINDING_FRAME) uniform Frame {
 // SHADE_*
 layout(constant_id = SPEC_SHADE) const uint SHADE = SHADE_NONE;
 
+// 1 where fragments come from elsewhere (material.glsl), which may look at everything that the shade does not say.
+layout(constant_id = SPEC_MATERIAL) const uint MATERIAL = 0;
+
 // What fragments in this shade look at beside normals. Stages before write nothing else: on devices that keep vertices in memory each output has its price.
 bool shade_sees_position() {
-    return SHADE != SHADE_PEER && SHADE != SHADE_WIREFRAME;
+    return MATERIAL != 0u || (SHADE != SHADE_PEER && SHADE != SHADE_WIREFRAME);
 }
 
 bool shade_sees_measure() {
@@ -54,7 +57,7 @@ bool shade_sees_measure() {
 }
 
 bool shade_sees_patch() {
-    return SHADE == SHADE_PATCHES || SHADE == SHADE_VALENCE;
+    return MATERIAL != 0u || SHADE == SHADE_PATCHES || SHADE == SHADE_VALENCE;
 }
 
 // The one clip-space transform: positions equal bit for bit stay equal.

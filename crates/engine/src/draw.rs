@@ -138,6 +138,7 @@ fn make_patches(
         (constant::SPEC_SHADE, output.shade()),
         (constant::SPEC_ADAPTIVE, division.adaptive.into()),
         (constant::SPEC_CULLS, division.culls.into()),
+        (constant::SPEC_MATERIAL, material.is_some().into()),
     ];
     let desc = GraphicsPipelineDesc {
         tessellation: Some(Stages { control: &control, evaluation: &evaluation, patch_points: patch_points(kind) }),
@@ -198,7 +199,7 @@ fn make_grid(engine: &Engine, output: Output, mapped: bool) -> Result<GraphicsPi
     let desc = GraphicsPipelineDesc {
         fragment: fragment.as_ref(),
         topology: Topology::Triangles,
-        specialization: &[(constant::SPEC_SHADE, output.shade())],
+        specialization: &[(constant::SPEC_SHADE, output.shade()), (constant::SPEC_MATERIAL, material.is_some().into())],
         ..GraphicsPipelineDesc::new(&name, &vertex)
     };
     Ok(engine.device().graphics_pipeline(&with_output(desc, output, material.as_deref()))?)

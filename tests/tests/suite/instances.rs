@@ -10,7 +10,8 @@ use osculate::gpu::{
 };
 use osculate::{
     Cage, Camera, Culling, DrawPlan, Engine, EngineError, Evaluator, Factors, Instance, InstanceDesc, Material,
-    MaterialDesc, RenderDesc, Scheme, Shade, Surface, Tessellation, Varying, View, render, shader_include,
+    MaterialDesc, RenderDesc, Scheme, Shade, Surface, SurfacePoint, Tessellation, Varying, View, render,
+    shader_include,
 };
 use osculate_shader_compiler::{CompileDesc, compile};
 use osculate_tests::{gpu, surface_of, zoo};
@@ -191,6 +192,46 @@ fn world_positions_and_normals_are_those_of_the_world() {
     }
     assert!(seen > 400, "{seen}");
     assert!(f64::from(upright) > 0.6 * f64::from(seen), "{upright} of {seen}");
+}
+
+/// The number of the patch and what varies on it are those of the point that is seen: the surface is there. By whatever else varies, the number stays.
+#[test]
+fn patches_and_their_parameters_reach_the_callers_shader() {
+    let gpu = gpu();
+    let (cage, surface) = cage_and_surface(&gpu, "ngon");
+    let surface = &surface;
+    let view = View::of(&Camera::fit(cage.bounds()), SIZE);
+    let picture = |evaluator, main: &str, varying| {
+        let own = material(&gpu, &fragment(&gpu, main), Format::Rgba32Float, varying);
+        let tessellation = by(evaluator, Factors::Uniform(24.0));
+        let instance = Instance::new(surface, &InstanceDesc { tessellation, ..InstanceDesc::new(&own, view) }).unwrap();
+        bytemuck::pod_collect_to_vec::<u8, [f32; 4]>(&drawn(&gpu, &[&instance], Format::Rgba32Float, [0.0; 4]))
+    };
+    const PARAMETERS: &str = "void main() { color = vec4(float(patch_id), measure, 1.0); }";
+    let positions = "void main() { color = vec4(shade_world_position(), 1.0); }";
+    for evaluator in EVALUATORS {
+        let (found, points) =
+            (picture(evaluator, PARAMETERS, Varying::Patch), picture(evaluator, positions, Varying::Patch));
+        let seen: Vec<usize> = (0..found.len()).filter(|&at| found[at][3] == 1.0).collect();
+        assert!(seen.len() > 800);
+        let at = |texel: [f32; 4]| {
+            let place = surface.place(texel[0] as u32, [texel[1], texel[2]].map(|x| f64::from(x).clamp(0.0, 1.0)));
+            let [s, t] = place.st.map(|x| x.clamp(0.0, 1.0));
+            SurfacePoint { sub_face: place.sub_face, s, t }
+        };
+        let samples = surface.sample(&seen.iter().map(|&one| at(found[one])).collect::<Vec<_>>()).unwrap();
+        for (&one, sample) in seen.iter().zip(&samples) {
+            let [x, y, z, _] = points[one].map(f64::from);
+            let distance = (sample.position - DVec3::new(x, y, z)).length();
+            assert!(distance < 4e-3 * cage.bounds().half_diagonal(), "{evaluator:?}: {distance} at {:?}", found[one]);
+        }
+        let curved = picture(evaluator, PARAMETERS, Varying::Curvature);
+        assert!(curved.iter().zip(&found).filter(|(a, b)| a[0] != b[0]).count() < 20, "{evaluator:?}");
+        assert!(curved.iter().zip(&found).filter(|(a, b)| a[1] != b[1]).count() > 800, "{evaluator:?}");
+    }
+    let alone = picture(Evaluator::Tessellator, PARAMETERS, Varying::Nothing);
+    let whole = picture(Evaluator::Tessellator, PARAMETERS, Varying::Patch);
+    assert!(alone.iter().zip(&whole).all(|(a, b)| a[0] == b[0]));
 }
 
 /// Bindings and push constants are each instance's own.
