@@ -1,5 +1,7 @@
 //! Vertices: one for each fan of corners that pairs of half-edges hold together.
 
+use std::collections::HashSet;
+
 use rayon::prelude::*;
 
 use super::loops::Loops;
@@ -20,13 +22,20 @@ const PATIENCE: [usize; 2] = [4, 16];
 
 /// Makes vertices, taking pairs apart where a face would visit a vertex twice or two edges would have the same ends: such meshes
 /// exist, but indices cannot describe them.
+///
+/// Pairs of this repair go first. So a mesh in order loses none of its own, and what one repair could not join, the next
+/// one does not join at the cost of another edge, and so on for ever.
 pub(super) fn make(loops: &Loops, pairs: &mut Pairs, watch: &Watch) -> Result<Fans, Cancelled> {
-    let mut round = 0;
+    let (mut round, mut fresh_round) = (0, 0);
     loop {
         let fans = Fans::number(loops, pairs, watch)?;
         let conflicts = fans.conflicts(loops, pairs, watch)?;
         if conflicts.is_empty() {
             return Ok(fans);
+        }
+        if fans.cut_fresh(&conflicts, fresh_round > PATIENCE[0], loops, pairs) {
+            fresh_round += 1;
+            continue;
         }
         for conflict in conflicts {
             let cuts = conflict.iter().filter(|h| pairs.cut(**h)).count();
@@ -75,6 +84,29 @@ impl Fans {
         let (numbers, sources) = in_order(&lowest);
         let vertices = roots.iter().map(|&root| numbers[fan_of[root as usize] as usize]).collect();
         Ok(Self { vertices, sources })
+    }
+
+    /// Takes apart pairs of this repair: those in conflicts, or else those at their vertices; in the end all. False if there are
+    /// none.
+    fn cut_fresh(&self, conflicts: &[Vec<u32>], all: bool, loops: &Loops, pairs: &mut Pairs) -> bool {
+        let half_edges = 0..loops.corners.len() as u32;
+        if all {
+            return half_edges.filter(|&h| pairs.cut_fresh(h)).count() > 0;
+        }
+        let mut stuck = HashSet::new();
+        let mut cuts = 0;
+        for conflict in conflicts {
+            let within = conflict.iter().filter(|&&h| pairs.cut_fresh(h)).count();
+            cuts += within;
+            if within == 0 {
+                stuck.extend(conflict.iter().flat_map(|&h| [h, loops.next(h)]).map(|c| self.vertices[c as usize]));
+            }
+        }
+        if !stuck.is_empty() {
+            let at_stuck = |h: u32| [h, loops.next(h)].iter().any(|&c| stuck.contains(&self.vertices[c as usize]));
+            cuts += half_edges.filter(|&h| at_stuck(h) && pairs.cut_fresh(h)).count();
+        }
+        cuts > 0
     }
 
     /// Sets of half-edges that must not all stay joined: those at a vertex that their face visits twice, and those of edges that

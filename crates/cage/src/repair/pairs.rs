@@ -15,6 +15,8 @@ use crate::{CageDesc, NONE};
 #[derive(Default)]
 pub(super) struct Pairs {
     mates: Vec<u32>,
+    /// Whether a half-edge has its mate from this repair: their vertices are not the same yet.
+    fresh: Vec<bool>,
 }
 
 impl Pairs {
@@ -31,6 +33,11 @@ impl Pairs {
         }
         self.mates[mate as usize] = NONE;
         true
+    }
+
+    /// Takes a pair apart if it was made by this repair; false if there is none.
+    pub(super) fn cut_fresh(&mut self, h: u32) -> bool {
+        self.fresh[h as usize] && self.cut(h)
     }
 
     /// Takes apart all pairs of some half-edges.
@@ -56,9 +63,11 @@ impl Pairs {
         report: &mut RepairReport,
     ) -> Result<Vec<bool>, Cancelled> {
         self.mates = vec![NONE; loops.corners.len()];
+        self.fresh = vec![false; loops.corners.len()];
         let mut winding = Winding::new(loops.face_count());
         self.join_vertices(desc, loops, &mut winding, watch, report)?;
         let groups = self.lonely(loops);
+        groups.iter().flatten().for_each(|&h| self.fresh[h as usize] = true);
         watch.look()?;
         for group in &groups {
             if let [a, b] = group[..] {
