@@ -12,6 +12,10 @@
 //! # }
 //! ```
 //!
+//! What a frame is made of:
+//!
+#![doc = include_str!("../doc/frame.svg")]
+//!
 //! # From a file to pictures and points
 //! * A [`Cage`] is read from OBJ, PLY, OFF, USD or glTF, or built by [`osculate_cage`].
 //! * An [`Engine`] is a device with the pipelines made on it so far. A [`Surface`] holds a cage's tables and points there, in one of the [`Scheme`]s; its

@@ -14,6 +14,8 @@ use crate::keys::corner_of;
 use crate::{EngineError, Surface};
 
 /// A point of the surface: (s,t) of a base quad, or of a sub-face of any other face.
+///
+#[doc = include_str!("../doc/surface_point.svg")]
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfacePoint {
     /// Where on the cage.

@@ -4,7 +4,9 @@ use osculate_gpu::Device;
 
 use crate::{Camera, EngineError};
 
-/// How the tessellator places vertices on an edge.
+/// How the tessellator places vertices on an edge; at level 3.5:
+///
+#[doc = include_str!("../doc/spacing.svg")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Spacing {
     /// Equal segments; a fractional level is rounded up.
