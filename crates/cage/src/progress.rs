@@ -24,6 +24,20 @@ pub enum ReadStage {
     Creases,
 }
 
+impl ReadStage {
+    /// What is being done, in a word or two for people.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fetch | Self::Parse => "reading",
+            Self::Polygons => "finding polygons",
+            Self::Repair => "repairing",
+            Self::Topology => "joining faces",
+            Self::Creases => "finding creases",
+        }
+    }
+}
+
 /// How far the reading of a file is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ReadProgress {

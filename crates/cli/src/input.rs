@@ -7,7 +7,7 @@ use crate::progress::Progress;
 use clap::{Args, ValueEnum};
 use osculate::{EngineError, PlanError};
 use osculate_cage::{
-    BoundaryRule, Cage, CageError, LimitError, ReadDesc, ReadError, ReadObserver, ReadProgress, ReadStage, Sequence,
+    BoundaryRule, Cage, CageError, LimitError, ReadDesc, ReadError, ReadObserver, ReadProgress, Sequence,
 };
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -133,19 +133,9 @@ fn open(file: &Path, desc: &ReadDesc, global: &GlobalArgs) -> Result<Sequence, F
 fn show_reading(quiet: bool) -> ReadObserver {
     let bar = Progress::in_stages(quiet);
     ReadObserver::new(move |ReadProgress { stage, done, total }| {
-        bar.stage(stage_name(stage), done, total);
+        bar.stage(stage.name(), done, total);
         ControlFlow::Continue(())
     })
-}
-
-fn stage_name(stage: ReadStage) -> &'static str {
-    match stage {
-        ReadStage::Polygons => "finding polygons",
-        ReadStage::Repair => "repairing",
-        ReadStage::Topology => "joining faces",
-        ReadStage::Creases => "finding creases",
-        _ => "reading",
-    }
 }
 
 /// Passes the warnings of a cage on.

@@ -13,7 +13,7 @@ use osculate::{
     Animator, Drawing, Engine, EngineError, Evaluator, PatchKind, Recording, Scheme, Shade, Spacing, Surface,
     SurfaceDesc, Target, Targets,
 };
-use osculate_cage::{Cage, ReadDesc, ReadError, ReadObserver, ReadProgress, ReadStage, Sequence};
+use osculate_cage::{Cage, ReadDesc, ReadError, ReadObserver, ReadProgress, Sequence};
 
 use crate::census::Census;
 use crate::dress::Dress;
@@ -216,7 +216,7 @@ impl Workshop {
         let (tell, newest) = (Arc::clone(&self.tell), Arc::clone(&self.newest));
         let observer = ReadObserver::new(move |ReadProgress { stage, done, total }| {
             let part = (total > 0).then(|| done as f32 / total as f32);
-            tell(News::Progress(stage_name(stage).to_owned(), part));
+            tell(News::Progress(stage.name().to_owned(), part));
             if newest.load(Ordering::Relaxed) == number { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
         });
         let desc = ReadDesc { observer: Some(observer), ..self.read.clone() };
@@ -295,15 +295,5 @@ enum Stop {
 impl From<EngineError> for Stop {
     fn from(error: EngineError) -> Self {
         Self::Failed(error.to_string())
-    }
-}
-
-fn stage_name(stage: ReadStage) -> &'static str {
-    match stage {
-        ReadStage::Polygons => "finding polygons",
-        ReadStage::Repair => "repairing",
-        ReadStage::Topology => "joining faces",
-        ReadStage::Creases => "finding creases",
-        _ => "reading",
     }
 }

@@ -4,7 +4,8 @@ use crate::args::GlobalArgs;
 use crate::cache;
 use crate::failure::{Failure, Verdict};
 use crate::options::{DisplaceArgs, DrawEvaluator, Level, Pixels, ReadArgs, SchemeName, Size, SpacingArg};
-use clap::{Args, ValueEnum};
+use clap::Args;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use etcetera::{BaseStrategy, choose_base_strategy};
 use osculate::{EngineError, Evaluator, Shade, Spacing};
 use osculate_cage::Sequence;
@@ -28,8 +29,8 @@ pub(crate) struct ViewArgs {
     scheme: Option<SchemeName>,
 
     /// What the colours mean at first; docs/shading.md has pictures.
-    #[arg(long, value_name = "SHADE")]
-    shade: Option<ViewShade>,
+    #[arg(long, value_name = "SHADE", value_parser = shades())]
+    shade: Option<Shade>,
 
     /// Segments per patch edge at first, from 1 to 64.
     #[arg(long, value_name = "L", allow_negative_numbers = true)]
@@ -84,43 +85,27 @@ pub(crate) struct ViewArgs {
 }
 
 /// Shades of the window.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ViewShade {
-    Lit,
-    Normals,
-    Patches,
-    Valence,
-    Wireframe,
-    Zebra,
-    Reflection,
-    Curvature,
-    Gaussian,
-    Factors,
-    Textured,
-    Uv,
-    Difference,
-    Leaks,
-}
+const SHADES: [Shade; 14] = [
+    Shade::Lit,
+    Shade::Normals,
+    Shade::Patches,
+    Shade::Valence,
+    Shade::Wireframe,
+    Shade::Zebra,
+    Shade::Reflection,
+    Shade::Curvature,
+    Shade::Gaussian,
+    Shade::Factors,
+    Shade::Textured,
+    Shade::Uv,
+    Shade::Difference,
+    Shade::Leaks,
+];
 
-impl From<ViewShade> for Shade {
-    fn from(shade: ViewShade) -> Self {
-        match shade {
-            ViewShade::Lit => Self::Lit,
-            ViewShade::Normals => Self::Normals,
-            ViewShade::Patches => Self::Patches,
-            ViewShade::Valence => Self::Valence,
-            ViewShade::Wireframe => Self::Wireframe,
-            ViewShade::Zebra => Self::Zebra,
-            ViewShade::Reflection => Self::Reflection,
-            ViewShade::Curvature => Self::Curvature,
-            ViewShade::Gaussian => Self::Gaussian,
-            ViewShade::Factors => Self::Factors,
-            ViewShade::Textured => Self::Textured,
-            ViewShade::Uv => Self::Uv,
-            ViewShade::Difference => Self::Difference,
-            ViewShade::Leaks => Self::Leaks,
-        }
-    }
+/// One of them by its name.
+fn shades() -> impl TypedValueParser<Value = Shade> {
+    let named = |name: String| SHADES.into_iter().find(|shade| shade.name() == name).ok_or("no such shade");
+    PossibleValuesParser::new(SHADES.map(Shade::name)).try_map(named)
 }
 
 const EXAMPLES: &str = "\
@@ -147,7 +132,7 @@ impl ViewArgs {
                 level: self.level.map(Level::get),
                 adaptive: self.adaptive.map(Pixels::get),
                 spacing: self.spacing.map(Spacing::from),
-                shade: self.shade.map(Shade::from),
+                shade: self.shade,
                 cage: self.cage.then_some(true),
             },
             dress: Some(dress(self.displace, self.texture)),
