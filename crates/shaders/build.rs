@@ -9,61 +9,21 @@ mod defines;
 mod generate;
 #[path = "build/tree.rs"]
 mod tree;
+#[path = "build/variants.rs"]
+mod variants;
 
-use osculate_shader_compiler::{CompileDesc, CompileError, Folder, Stage, compile};
+use osculate_shader_compiler::{CompileDesc, CompileError, Folder, compile};
 use std::env;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
+use variants::{Define, Variant};
 
 /// The shaders folder, from this crate's.
 const SHADERS: &str = "../../shaders";
 /// Where `#include` looks after the including file's own folder, relative to the shaders folder.
 const INCLUDE_DIRS: &[&str] = &["", "include"];
-
-type Defines = &'static [(&'static str, Option<&'static str>)];
-
-/// Variants of a stage: what is added to the file's path to name the shader, and the macros that make it. `SPACING` is the
-/// tessellator's spacing, which is a layout qualifier and so no specialization constant; `CAPTURE` sends outputs to transform feedback; `MAPPED` is for
-/// surfaces with texture coordinates, which may be displaced.
-const EVALUATION_VARIANTS: &[(&str, Defines)] = &[
-    ("#equal", &[("SPACING", Some("equal_spacing"))]),
-    ("#odd", &[("SPACING", Some("fractional_odd_spacing"))]),
-    ("#even", &[("SPACING", Some("fractional_even_spacing"))]),
-    ("#equal,capture", &[("SPACING", Some("equal_spacing")), ("CAPTURE", None)]),
-    ("#odd,capture", &[("SPACING", Some("fractional_odd_spacing")), ("CAPTURE", None)]),
-    ("#even,capture", &[("SPACING", Some("fractional_even_spacing")), ("CAPTURE", None)]),
-    ("#equal,mapped", &[("SPACING", Some("equal_spacing")), ("MAPPED", None)]),
-    ("#odd,mapped", &[("SPACING", Some("fractional_odd_spacing")), ("MAPPED", None)]),
-    ("#even,mapped", &[("SPACING", Some("fractional_even_spacing")), ("MAPPED", None)]),
-    ("#equal,capture,mapped", &[("SPACING", Some("equal_spacing")), ("CAPTURE", None), ("MAPPED", None)]),
-    ("#odd,capture,mapped", &[("SPACING", Some("fractional_odd_spacing")), ("CAPTURE", None), ("MAPPED", None)]),
-    ("#even,capture,mapped", &[("SPACING", Some("fractional_even_spacing")), ("CAPTURE", None), ("MAPPED", None)]),
-];
-/// Stages that evaluate or colour patches: with `MAPPED` for surfaces with texture coordinates.
-const MAPPED_VARIANTS: &[(&str, Defines)] = &[("", &[]), ("#mapped", &[("MAPPED", None)])];
-const ONE_VARIANT: &[(&str, Defines)] = &[("", &[])];
-
-/// Control stages that write as many vertices as the net has points, which SPIR-V wants as a literal: one variant for each net of 2n+8 points.
-const NET_SIZE_STAGE: &str = "patch/stam.tesc";
-const NET_SIZE_VARIANTS: &[(&str, Defines)] = &[
-    ("#14", &[("POINTS_OUT", Some("14"))]),
-    ("#18", &[("POINTS_OUT", Some("18"))]),
-    ("#20", &[("POINTS_OUT", Some("20"))]),
-    ("#22", &[("POINTS_OUT", Some("22"))]),
-    ("#24", &[("POINTS_OUT", Some("24"))]),
-    ("#26", &[("POINTS_OUT", Some("26"))]),
-    ("#28", &[("POINTS_OUT", Some("28"))]),
-    ("#30", &[("POINTS_OUT", Some("30"))]),
-    ("#32", &[("POINTS_OUT", Some("32"))]),
-];
-
-/// The stage that colours patches, and the folder of the kernels that evaluate them.
-const SURFACE_STAGE: &str = "shade/surface.frag";
-const EVALUATION_FOLDER: &str = "evaluate/";
-/// One of them that evaluates none.
-const FACTORS_STAGE: &str = "evaluate/factors.comp";
 
 /// One shader to compile: a variant of a stage file.
 struct Job {
@@ -71,7 +31,7 @@ struct Job {
     name: String,
     /// Path of the file, relative to the shaders folder.
     path: String,
-    defines: Defines,
+    defines: Vec<Define>,
 }
 
 fn main() -> ExitCode {
@@ -106,17 +66,8 @@ fn run() -> Result<(), Vec<String>> {
 
 /// The shaders that a file stands for: none for includes, one per variant for stages.
 fn jobs_of(path: &str) -> Vec<Job> {
-    let variants = match Stage::of_path(path) {
-        Ok(Stage::TessellationEvaluation) => EVALUATION_VARIANTS,
-        Ok(_) if path == NET_SIZE_STAGE => NET_SIZE_VARIANTS,
-        Ok(Stage::Fragment) if path == SURFACE_STAGE => MAPPED_VARIANTS,
-        Ok(Stage::Compute) if path.starts_with(EVALUATION_FOLDER) && path != FACTORS_STAGE => MAPPED_VARIANTS,
-        Ok(_) => ONE_VARIANT,
-        Err(_) => &[],
-    };
-    let job =
-        |&(suffix, defines): &(&str, Defines)| Job { name: format!("{path}{suffix}"), path: path.to_owned(), defines };
-    variants.iter().map(job).collect()
+    let job = |Variant { suffix, defines }| Job { name: format!("{path}{suffix}"), path: path.to_owned(), defines };
+    variants::of(path).into_iter().map(job).collect()
 }
 
 /// Compiles all jobs on all cores; the SPIR-V comes in the order of `jobs`, or else the errors of all that failed.
@@ -155,7 +106,7 @@ fn compile_job(folder: &Folder, job: &Job) -> Result<Vec<u32>, Vec<String>> {
         source: &source,
         include_dirs: INCLUDE_DIRS,
         load: &load,
-        defines: job.defines,
+        defines: &job.defines,
         debug_info: env::var_os("CARGO_FEATURE_DEBUG_INFO").is_some(),
     })
     .map_err(|error| match error {

@@ -1,4 +1,4 @@
-// Interface of the tessellation evaluation stages: a stage includes this, its form, and says where control points come from. SPACING is the layout's spacing, DOMAIN its domain if not quads; with CAPTURE the outputs go to transform feedback, with MAPPED the surface has texture coordinates.
+// Interface of the tessellation evaluation stages: a stage includes this, its form, and says where control points come from. SPACING is the layout's spacing, DOMAIN its domain if not quads; with CAPTURE the outputs go to transform feedback, else there are those that SEES_POSITION, SEES_PATCH name; with MAPPED the surface has texture coordinates.
 #ifndef EVALUATION_STAGE_GLSL
 #define EVALUATION_STAGE_GLSL
 #include "frame.glsl"
@@ -23,8 +23,12 @@ layout(location = 1, xfb_buffer = 0, xfb_stride = 36, xfb_offset = 12) out vec3 
 layout(location = 2, xfb_buffer = 0, xfb_stride = 36, xfb_offset = 24) out vec2 out_uv;
 layout(location = 3, xfb_buffer = 0, xfb_stride = 36, xfb_offset = 32) out flat uint out_patch;
 #else
-layout(location = 0) out vec3 out_position;
 layout(location = 1) out vec3 out_normal;
+#endif
+#ifdef SEES_POSITION
+layout(location = 0) out vec3 out_position;
+#endif
+#ifdef SEES_PATCH
 layout(location = 2) out vec2 out_measure;
 layout(location = 3) out flat uint out_patch;
 #endif
@@ -43,10 +47,11 @@ void write_vertex() {
     out_position = point.position;
     out_uv = uv;
     out_patch = patch_id;
-#else
-    if (shade_sees_position()) {
-        out_position = point.position;
-    }
+#endif
+#ifdef SEES_POSITION
+    out_position = point.position;
+#endif
+#ifdef SEES_PATCH
     if (shade_sees_measure()) {
         out_measure = shade_measure(patch_id, uv, inner, vec2(gl_TessLevelInner[0], gl_TessLevelInner[1]));
     }

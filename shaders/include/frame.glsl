@@ -46,11 +46,7 @@ layout(constant_id = SPEC_SHADE) const uint SHADE = SHADE_NONE;
 // 1 where fragments come from elsewhere (material.glsl), which may look at everything that the shade does not say.
 layout(constant_id = SPEC_MATERIAL) const uint MATERIAL = 0;
 
-// What fragments in this shade look at beside normals. Stages before write nothing else: on devices that keep vertices in memory each output has its price.
-bool shade_sees_position() {
-    return MATERIAL != 0u || (SHADE != SHADE_PEER && SHADE != SHADE_WIREFRAME);
-}
-
+// What fragments in this shade look at beside places. Stages before write nothing else: on devices that keep vertices in memory each output has its price.
 bool shade_sees_measure() {
     return SHADE == SHADE_PATCHES || SHADE == SHADE_VALENCE || SHADE == SHADE_WIREFRAME || SHADE == SHADE_CURVATURE || SHADE == SHADE_GAUSSIAN
         || SHADE == SHADE_FACTORS || SHADE == SHADE_DIFFERENCE || SHADE == SHADE_TEXTURED || SHADE == SHADE_UV;

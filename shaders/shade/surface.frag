@@ -1,6 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Colours the surface by SHADE.
+// Colours the surface by SHADE. With SEES_POSITION, SEES_PATCH its shade looks at more than normals: devices that keep triangles in memory, llvmpipe among
+// them, put every input that a shader declares into each of them, whether it is read or not.
 #include "frame.glsl"
 #include "records.glsl"
 #include "palette.glsl"
@@ -10,11 +11,20 @@
 #include "texture.glsl"
 #endif
 
-layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
+#ifdef SEES_POSITION
+layout(location = 0) in vec3 position;
+#else
+const vec3 position = vec3(0.0);
+#endif
+#ifdef SEES_PATCH
 // By shade: curvature, texture coordinates, segments, or (u,v) in the patch (shade_measure).
 layout(location = 2) in vec2 measure;
 layout(location = 3) in flat uint patch_id;
+#else
+const vec2 measure = vec2(0.0);
+const uint patch_id = 0u;
+#endif
 
 layout(location = 0) out vec4 color;
 

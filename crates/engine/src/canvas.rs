@@ -63,7 +63,7 @@ impl<'a> Canvas<'a> {
     /// Evaluates and draws chunk after chunk, so that only one is in memory.
     fn add_grids(&mut self, surface: &Surface) -> Result<(), EngineError> {
         let rates = surface.grid_rates(&self.desc.tessellation)?;
-        let grids = Grids::drawn(surface, &rates, self.desc.shade)?;
+        let grids = Grids::drawn(surface, &rates, self.look().output())?;
         let frame = self.frame(surface)?;
         for chunk in grids.chunks() {
             let chunk = chunk?;

@@ -121,7 +121,8 @@ impl Comparison<'_> {
                 vertex.uv = [if range > 0.0 { (distance / range) as f32 } else { 0.0 }, 0.0];
             }
             let device = self.surface.engine().device();
-            draw(grids, chunk.with_vertices(device.upload("measured vertices", BufferUsage::STORAGE, vertices)?))
+            let usage = BufferUsage::STORAGE | BufferUsage::VERTEX;
+            draw(grids, chunk.with_vertices(device.upload("measured vertices", usage, vertices)?))
         })?;
         Ok(Difference { largest: distances.largest, mean: distances.mean(), range })
     }

@@ -11,7 +11,10 @@ use osculate_shaders::{constant, layout::PatchPush};
 use osculate_subdiv::{PatchForm, PatchKind, PatchList};
 
 use crate::culling::overshoot;
+use crate::evaluate::Measured;
+use crate::grid::Layout;
 use crate::material::{Inner as MaterialInner, MaterialId};
+use crate::render::Seen;
 use crate::{Engine, EngineError, Factors, Shade, Spacing, Surface, Target, Tessellation};
 
 /// What becomes of tessellated patches.
@@ -28,6 +31,22 @@ pub(crate) enum Output {
 }
 
 impl Output {
+    /// Whose vertices it takes from the compute evaluator.
+    pub(crate) fn layout(self) -> Layout {
+        match self {
+            Self::Fill(_, shade) | Self::Material(_, shade) => shade.layout(),
+            Self::Lines(_) | Self::Capture => Layout::Own,
+        }
+    }
+
+    /// What its fragments look at.
+    fn seen(self) -> Seen {
+        match self {
+            Self::Fill(_, shade) => shade.seen(),
+            Self::Lines(_) | Self::Material(..) | Self::Capture => Seen::Patch,
+        }
+    }
+
     /// The `SHADE_*` constant that shaders are specialized for.
     fn shade(self) -> u32 {
         match self {
@@ -124,12 +143,12 @@ fn make_patches(
     output: Output,
     mapped: bool,
 ) -> Result<GraphicsPipeline, EngineError> {
-    let capture = if output == Output::Capture { ",capture" } else { "" };
+    let outputs = if output == Output::Capture { "capture" } else { output.seen().word() };
     let [vertex, control, evaluation] = stages(kind);
     let vertex = engine.shader(&vertex)?;
     let control = engine.shader(&control)?;
-    let maps = if mapped { ",mapped" } else { "" };
-    let evaluation = engine.shader(&format!("{evaluation}#{}{capture}{maps}", division.spacing.variant()))?;
+    let words = [division.spacing.variant(), outputs, mapped_word(mapped)];
+    let evaluation = engine.shader(&variant(&evaluation, &words))?;
     let material = output.material(engine)?;
     let fragment = fragment(engine, output, mapped)?;
     let name = patches_name(kind, division, output) + mapped_name(mapped) + &material_name(&material);
@@ -177,14 +196,25 @@ fn material_name(material: &Option<Arc<MaterialInner>>) -> String {
     material.as_ref().map_or_else(String::new, |material| format!(", {}", material.name()))
 }
 
+/// The name of a variant of a stage file, by those words that are not empty.
+fn variant(path: &str, words: &[&str]) -> String {
+    let words: Vec<&str> = words.iter().copied().filter(|word| !word.is_empty()).collect();
+    if words.is_empty() { path.to_owned() } else { format!("{path}#{}", words.join(",")) }
+}
+
+fn mapped_word(mapped: bool) -> &'static str {
+    if mapped { "mapped" } else { "" }
+}
+
 fn mapped_name(mapped: bool) -> &'static str {
     if mapped { ", mapped" } else { "" }
 }
 
 fn fragment(engine: &Engine, output: Output, mapped: bool) -> Result<Option<Shader>, EngineError> {
     match output {
-        Output::Fill(..) if mapped => Ok(Some(engine.shader("shade/surface.frag#mapped")?)),
-        Output::Fill(..) => Ok(Some(engine.shader("shade/surface.frag")?)),
+        Output::Fill(_, shade) => {
+            Ok(Some(engine.shader(&variant("shade/surface.frag", &[shade.seen().word(), mapped_word(mapped)]))?))
+        }
         Output::Lines(_) => Ok(Some(engine.shader("shade/wire.frag")?)),
         Output::Material(id, _) => Ok(engine.materials().get(id)?.fragment().cloned()),
         Output::Capture => Ok(None),
@@ -192,7 +222,9 @@ fn fragment(engine: &Engine, output: Output, mapped: bool) -> Result<Option<Shad
 }
 
 fn make_grid(engine: &Engine, output: Output, mapped: bool) -> Result<GraphicsPipeline, EngineError> {
-    let vertex = engine.shader("shade/grid.vert")?;
+    // Vertices that hold more than places are drawn whole.
+    let seen = if Measured::of(output) == Measured::Nothing { output.seen() } else { Seen::Patch };
+    let vertex = engine.shader(&variant("shade/grid.vert", &[seen.word()]))?;
     let material = output.material(engine)?;
     let fragment = fragment(engine, output, mapped)?;
     let name = format!("grid, {}{}{}", output_name(output), mapped_name(mapped), material_name(&material));
@@ -305,6 +337,7 @@ impl Surface {
             push: bytes_of(&push).to_vec(),
             vertices: (run.first * points..(run.first + run.count) * points).into(),
             instances: 0..1,
+            attributes: None,
             scissor: None,
         })
     }

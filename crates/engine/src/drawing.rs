@@ -215,7 +215,7 @@ impl Drawing {
             self.grids = None;
             self.grids = {
                 let outputs: Vec<Output> = look.outputs().collect();
-                Some(ResidentGrids::new(&self.surface, rates, look.shade, &outputs, &self.frame, &mut draws)?)
+                Some(ResidentGrids::new(&self.surface, rates, &outputs, &self.frame, &mut draws)?)
             };
         } else {
             draws = look.patches(&self.surface, &self.frame)?;
@@ -268,18 +268,17 @@ impl Drawing {
 }
 
 impl ResidentGrids {
-    /// Plans all chunks, uploads their triangles, and adds their draws.
+    /// Plans all chunks, uploads their triangles, and adds their draws: one output or more, which look at the same of them.
     pub(crate) fn new(
         surface: &Surface,
         rates: GridRates,
-        shade: Shade,
         outputs: &[Output],
         frame: &Buffer,
         draws: &mut Vec<Draw>,
     ) -> Result<Self, EngineError> {
         let mut passes = Recording::new();
         let (mut triangles, mut vertices, mut bytes) = (0, 0, 0);
-        let grids = Grids::drawn(surface, &rates, shade)?;
+        let grids = Grids::drawn(surface, &rates, outputs[0])?;
         let mut chunks: Vec<(GridChunk, Buffer)> = Vec::new();
         for chunk in grids.chunks() {
             let chunk = chunk?;

@@ -89,9 +89,12 @@ fn grid_kernels(form: PatchForm, mapped: bool, measure: Measured, lanes: bool) -
     apart.then_some(border).into_iter().chain([inside])
 }
 
-/// What vertices hold beside position and normal: few shades differ there, so that kernels do not multiply by shades.
+/// What vertices hold beside position and normal: few shades differ there, so that kernels do not multiply by shades. Unless it is nothing, the number of the
+/// patch comes with it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Measured {
+    /// Nothing.
+    Nothing,
     /// (u,v) as it is: of vertices that are not drawn.
     Parameters,
     /// What patches are outlined by.
@@ -107,16 +110,30 @@ pub(crate) enum Measured {
 }
 
 impl Measured {
-    /// What pictures in a shade need; `None` is no picture.
-    fn of(shade: Option<Shade>) -> Self {
-        match shade {
-            None => Self::Parameters,
-            Some(Shade::Curvature | Shade::Gaussian) => Self::Curvature,
-            Some(Shade::Wireframe) => Self::Width,
-            Some(Shade::Factors) => Self::Segments,
-            Some(Shade::Textured | Shade::Uv) => Self::Texture,
-            Some(_) => Self::Outline,
+    /// What the fragments of an output look at.
+    pub(crate) fn of(output: Output) -> Self {
+        match output {
+            Output::Fill(_, shade) if shade.layout() == Layout::Shared => Self::Nothing,
+            Output::Fill(_, shade) | Output::Material(_, shade) => Self::of_patch(shade),
+            Output::Lines(_) => Self::Width,
+            Output::Capture => Self::Parameters,
         }
+    }
+
+    fn of_patch(shade: Shade) -> Self {
+        match shade {
+            Shade::Curvature | Shade::Gaussian => Self::Curvature,
+            Shade::Wireframe => Self::Width,
+            Shade::Factors => Self::Segments,
+            Shade::Textured | Shade::Uv => Self::Texture,
+            _ => Self::Outline,
+        }
+    }
+
+    /// Bytes of a vertex.
+    fn vertex_bytes(self) -> u64 {
+        let words = if self == Self::Nothing { constant::GRID_PLACE_WORDS } else { constant::GRID_VERTEX_WORDS };
+        4 * u64::from(words)
     }
 
     /// Whether it follows from the whole patch, its formula or how it is divided, on its border too (`shade_measures_patch` in
@@ -128,8 +145,9 @@ impl Measured {
     /// A shade that measures this.
     pub(crate) fn shade(self) -> u32 {
         match self {
+            Self::Nothing => constant::SHADE_LIT,
             Self::Parameters => constant::SHADE_NONE,
-            Self::Outline => constant::SHADE_LIT,
+            Self::Outline => constant::SHADE_PATCHES,
             Self::Curvature => constant::SHADE_CURVATURE,
             Self::Width => constant::SHADE_WIREFRAME,
             Self::Segments => constant::SHADE_FACTORS,
@@ -140,6 +158,7 @@ impl Measured {
     /// The name for tools.
     pub(crate) fn name(self) -> &'static str {
         match self {
+            Self::Nothing => "places",
             Self::Parameters => "parameters",
             Self::Outline => "outline",
             Self::Curvature => "curvature",
@@ -164,12 +183,13 @@ pub(crate) struct Grids<'a> {
 /// A chunk on the device.
 #[derive(Clone)]
 pub(crate) struct GridChunk {
-    /// Receives [`CapturedVertex`] words; what `uv` holds depends on the shade of the frame.
+    /// Receives [`CapturedVertex`] words; what `uv` holds depends on what is measured. If nothing is, positions and normals alone.
     pub(crate) vertices: Buffer,
     /// The patches.
     pub(crate) patches: Range<u32>,
     /// Three vertices for each triangle.
     pub(crate) indices: Vec<u32>,
+    vertex_count: u32,
     /// Whether any patch has vertices inside.
     has_inside: bool,
     bindings: Bindings,
@@ -183,7 +203,7 @@ impl GridChunk {
 
     /// Number of vertices.
     pub(crate) fn vertex_count(&self) -> u64 {
-        self.vertices.size() / size_of::<CapturedVertex>() as u64
+        self.vertex_count.into()
     }
 
     /// Bytes on the device: of vertices and patches.
@@ -199,27 +219,28 @@ impl GridChunk {
 }
 
 impl<'a> Grids<'a> {
-    /// Those that are drawn in a shade: on the device.
-    pub(crate) fn drawn(surface: &'a Surface, rates: &'a GridRates, shade: Shade) -> Result<Self, EngineError> {
-        Self::new(surface, rates, Some(shade), shade.layout(), Memory::Device)
+    /// Those that are drawn: on the device.
+    pub(crate) fn drawn(surface: &'a Surface, rates: &'a GridRates, output: Output) -> Result<Self, EngineError> {
+        Self::new(surface, rates, output, output.layout(), Memory::Device)
     }
 
     /// Those that the host reads.
     pub(crate) fn read(surface: &'a Surface, rates: &'a GridRates, layout: Layout) -> Result<Self, EngineError> {
-        Self::new(surface, rates, None, layout, Memory::Readback)
+        Self::new(surface, rates, Output::Capture, layout, Memory::Readback)
     }
 
     fn new(
         surface: &'a Surface,
         rates: &'a GridRates,
-        shade: Option<Shade>,
+        output: Output,
         layout: Layout,
         memory: Memory,
     ) -> Result<Self, EngineError> {
-        surface.engine().prepare(surface.grid_kernels(shade), [])?;
+        let measure = Measured::of(output);
+        surface.engine().prepare(surface.grid_kernels(output), [])?;
         let parameters = upload(surface, "grid parameters", rates.parameters())?;
         let bindings = surface.patch_bindings().with(binding::GRID_PARAMETERS, &parameters);
-        Ok(Self { surface, rates, layout, measure: Measured::of(shade), memory, bindings })
+        Ok(Self { surface, rates, layout, measure, memory, bindings })
     }
 
     /// The chunks, made one at a time.
@@ -236,20 +257,21 @@ impl<'a> Grids<'a> {
     fn max_vertices(&self) -> u32 {
         let engine = self.surface.engine();
         let bytes = CHUNK_BYTES.min(engine.device().info().limits.max_storage_buffer_range);
-        engine.desc().grid_vertices.unwrap_or((bytes / size_of::<CapturedVertex>() as u64) as u32)
+        engine.desc().grid_vertices.unwrap_or((bytes / self.measure.vertex_bytes()) as u32)
     }
 
     fn upload(&self, chunk: Chunk) -> Result<GridChunk, EngineError> {
-        let size = u64::from(chunk.vertex_count) * size_of::<CapturedVertex>() as u64;
-        let desc = BufferDesc { name: "grid vertices", size, usage: BufferUsage::STORAGE, memory: self.memory };
+        let size = u64::from(chunk.vertex_count) * self.measure.vertex_bytes();
+        let usage = BufferUsage::STORAGE | BufferUsage::VERTEX;
+        let desc = BufferDesc { name: "grid vertices", size, usage, memory: self.memory };
         let vertices = self.surface.engine().device().buffer(&desc)?;
         let bindings = self
             .bindings
             .clone()
             .with(binding::GRID_PATCHES, &upload(self.surface, "grid patches", &chunk.patches)?)
             .with(binding::GRID_VERTICES, &vertices);
-        let (patches, has_inside) = (chunk.patch_range(), chunk.has_inside);
-        Ok(GridChunk { vertices, patches, indices: chunk.indices, has_inside, bindings })
+        let (patches, vertex_count, has_inside) = (chunk.patch_range(), chunk.vertex_count, chunk.has_inside);
+        Ok(GridChunk { vertices, patches, indices: chunk.indices, vertex_count, has_inside, bindings })
     }
 
     /// Adds the kernels that write a chunk's vertices.
@@ -325,6 +347,7 @@ impl<'a> Grids<'a> {
             push: Vec::new(),
             vertices: Vertices::Indexed { indices: indices.clone(), range: 0..(indices.size() / 4) as u32 },
             instances: 0..1,
+            attributes: Some(chunk.vertices.clone()),
             scissor: None,
         })
     }
@@ -335,9 +358,9 @@ fn upload<T: NoUninit>(surface: &Surface, name: &str, data: &[T]) -> Result<Buff
 }
 
 impl Surface {
-    /// The kernels that its patches need for pictures in a shade, or for none.
-    pub(crate) fn grid_kernels(&self, shade: Option<Shade>) -> impl Iterator<Item = KernelKey> {
-        let measure = Measured::of(shade);
+    /// The kernels that its patches need for an output.
+    pub(crate) fn grid_kernels(&self, output: Output) -> impl Iterator<Item = KernelKey> {
+        let measure = Measured::of(output);
         let kernels = move |form| self.grid_kernels_of(form, measure);
         let shaders = self.plan().lists.iter().flat_map(move |list| kernels(list.kind.form()));
         shaders.map(move |kernel| KernelKey { shader: kernel.shader, measure })

@@ -203,7 +203,7 @@ impl Instance {
     fn prepare(&self) -> Result<(), EngineError> {
         let (engine, output) = (self.surface.engine(), self.output());
         if self.in_compute() {
-            let kernels = self.surface.grid_kernels(Some(self.material.varying().shade()));
+            let kernels = self.surface.grid_kernels(output);
             return engine.prepare(kernels, [PipelineKey::Grid { output, mapped: self.surface.is_mapped() }]);
         }
         engine.prepare(NO_KERNELS, self.surface.pipelines(self.division(), output))
@@ -219,8 +219,8 @@ impl Instance {
             }
             // The old ones go first: there may not be room for both.
             (self.draws, self.grids) = (Vec::new(), None);
-            let (shade, outputs) = (self.material.varying().shade(), [self.output()]);
-            self.grids = Some(ResidentGrids::new(&self.surface, rates, shade, &outputs, &self.frame, &mut draws)?);
+            let outputs = [self.output()];
+            self.grids = Some(ResidentGrids::new(&self.surface, rates, &outputs, &self.frame, &mut draws)?);
         } else {
             draws = self.patches()?;
         }

@@ -7,6 +7,7 @@ use crate::draw::{Division, Output, PipelineKey, runs};
 use crate::frame::{CullView, FrameDesc};
 use crate::grid::Layout;
 use crate::pipelines::NO_KERNELS;
+use crate::render::Seen;
 use crate::{Camera, Culling, Engine, EngineError, Shade, Surface, Target, Tessellation};
 
 /// Edges of triangles.
@@ -57,7 +58,7 @@ impl Look<'_> {
         let cage = self.cage.then_some([false, true].map(|hidden| PipelineKey::Cage { target, hidden }));
         let cage = cage.into_iter().flatten();
         if tessellation.renders_in_compute(engine.device()) {
-            let kernels = surfaces.iter().flat_map(|surface| surface.grid_kernels(Some(self.shade)));
+            let kernels = surfaces.iter().flat_map(|surface| surface.grid_kernels(self.output()));
             let grids = |output| surfaces.iter().map(move |one| PipelineKey::Grid { output, mapped: one.is_mapped() });
             return engine.prepare(kernels, self.outputs().flat_map(grids).chain(cage));
         }
@@ -66,11 +67,16 @@ impl Look<'_> {
         engine.prepare(NO_KERNELS, self.outputs().flat_map(patches).chain(cage))
     }
 
+    /// What becomes of the triangles first.
+    pub(crate) fn output(&self) -> Output {
+        Output::Fill(self.target, self.shade)
+    }
+
     /// What becomes of the triangles, in order.
     pub(crate) fn outputs(&self) -> impl Iterator<Item = Output> + use<> {
         let target = self.target;
         let lines = (self.shade == Shade::Wireframe).then_some(Output::Lines(target));
-        std::iter::once(Output::Fill(target, self.shade)).chain(lines)
+        std::iter::once(self.output()).chain(lines)
     }
 
     /// The frame of a surface.
@@ -126,6 +132,7 @@ impl Look<'_> {
                 push: Vec::new(),
                 vertices: (0..2 * surface.cage_edge_count()).into(),
                 instances: 0..1,
+                attributes: None,
                 scissor: None,
             })
         };
@@ -136,9 +143,7 @@ impl Look<'_> {
 impl Shade {
     /// Whose vertices a shade takes: one that shows something of each patch needs vertices of its own.
     pub(crate) fn layout(self) -> Layout {
-        match self {
-            Self::Lit | Self::Normals | Self::Zebra | Self::Peer | Self::Leaks => Layout::Shared,
-            _ => Layout::Own,
-        }
+        // Edges of triangles show how wide those of a patch are.
+        if self.seen() == Seen::Patch || self == Self::Wireframe { Layout::Own } else { Layout::Shared }
     }
 }

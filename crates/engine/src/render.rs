@@ -85,6 +85,17 @@ impl Shade {
         matches!(self, Self::Textured | Self::Uv)
     }
 
+    /// What its fragments look at.
+    pub(crate) fn seen(self) -> Seen {
+        match self {
+            Self::Peer => Seen::Normal,
+            Self::Lit | Self::Normals | Self::Zebra | Self::Reflection | Self::Leaks | Self::Wireframe => {
+                Seen::Position
+            }
+            _ => Seen::Patch,
+        }
+    }
+
     /// The number by which shaders know it.
     pub(crate) fn constant(self) -> u32 {
         match self {
@@ -103,6 +114,28 @@ impl Shade {
             Self::Textured => constant::SHADE_TEXTURED,
             Self::Uv => constant::SHADE_UV,
             Self::Leaks => constant::SHADE_LEAKS,
+        }
+    }
+}
+
+/// What fragments look at: vertices hold no more where less is enough.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Seen {
+    /// Normals alone.
+    Normal,
+    /// Positions too.
+    Position,
+    /// All of that, the patch, and what is measured on it.
+    Patch,
+}
+
+impl Seen {
+    /// The word in names of shaders.
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Self::Normal => "normal",
+            Self::Position => "position",
+            Self::Patch => "",
         }
     }
 }

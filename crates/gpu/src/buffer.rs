@@ -27,6 +27,8 @@ bitflags::bitflags! {
         const INDEX = 4;
         /// Target of a capture pass; needs transform feedback.
         const CAPTURE = 8;
+        /// Attributes of a draw's vertices.
+        const VERTEX = 16;
     }
 }
 
@@ -357,6 +359,7 @@ fn usage_flags(usage: BufferUsage) -> vk::BufferUsageFlags {
         (BufferUsage::UNIFORM, vk::BufferUsageFlags::UNIFORM_BUFFER),
         (BufferUsage::INDEX, vk::BufferUsageFlags::INDEX_BUFFER),
         (BufferUsage::CAPTURE, capture),
+        (BufferUsage::VERTEX, vk::BufferUsageFlags::VERTEX_BUFFER),
     ];
     let copies = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
     table.into_iter().filter(|(one, _)| usage.contains(*one)).fold(copies, |flags, (_, flag)| flags | flag)

@@ -105,7 +105,7 @@ impl Device {
     /// earlier, or that were submitted: no barriers are needed in between.
     ///
     /// As [`Self::encode`] it submits nothing but a change of layouts of textures when they are first used. The commands change the
-    /// graphics pipeline, descriptor sets 0 and 1, push constants, index buffer, viewport and scissor.
+    /// graphics pipeline, descriptor sets 0 and 1, push constants, index buffer, vertex buffer 0, viewport and scissor.
     ///
     /// # Errors
     /// If a draw is wrong, or its pipeline declares descriptor set 1 and none is given.

@@ -147,14 +147,18 @@ impl<'a> Encoder<'a> {
     /// Draws with the pipeline that is bound.
     fn draw(&self, draw: &DrawCall<'_>) {
         self.bind_resources(&draw.call);
+        if let Some(attributes) = draw.attributes {
+            // SAFETY: see `Encoder`; the buffer was made for this.
+            unsafe { self.device.raw().cmd_bind_vertex_buffers(self.commands, 0, &[attributes.raw()], &[0]) }
+        }
         let (first_instance, instances) = (draw.instances.start, draw.instances.len() as u32);
         match draw.vertices {
             // SAFETY: see `Encoder`; pipeline, descriptors and push constants were just set.
             Vertices::Range(range) => unsafe {
                 self.device.raw().cmd_draw(self.commands, range.len() as u32, instances, range.start, first_instance);
             },
-            // SAFETY: as above; the range lies within the index buffer, and vertices come from storage buffers with robust
-            // access, so that any index is harmless.
+            // SAFETY: as above; the range lies within the index buffer, and vertices come from buffers with robust access, so that any
+            // index is harmless.
             Vertices::Indexed { indices, range } => unsafe {
                 let raw = self.device.raw();
                 raw.cmd_bind_index_buffer(self.commands, indices.raw(), 0, vk::IndexType::UINT32);
@@ -426,6 +430,7 @@ impl<'a> Encoder<'a> {
 /// which are nobody else's business.
 const CONSUMERS: vk::PipelineStageFlags2 = vk::PipelineStageFlags2::from_raw(
     vk::PipelineStageFlags2::INDEX_INPUT.as_raw()
+        | vk::PipelineStageFlags2::VERTEX_ATTRIBUTE_INPUT.as_raw()
         | vk::PipelineStageFlags2::PRE_RASTERIZATION_SHADERS.as_raw()
         | vk::PipelineStageFlags2::FRAGMENT_SHADER.as_raw()
         | vk::PipelineStageFlags2::COMPUTE_SHADER.as_raw()

@@ -27,7 +27,8 @@ pub struct Tessellation<'a> {
     pub patch_points: u32,
 }
 
-/// How to make a graphics pipeline. Vertices have no attributes: the vertex shader reads buffers by `gl_VertexIndex`.
+/// How to make a graphics pipeline. What the vertex shader declares as inputs comes from the buffer of [`Draw::attributes`](crate::Draw::attributes); it may as
+/// well read storage buffers by `gl_VertexIndex`.
 #[derive(Clone, Copy, Debug)]
 pub struct GraphicsPipelineDesc<'a> {
     /// Name for tools and messages.
@@ -154,6 +155,8 @@ pub struct GraphicsPipeline {
     pub(crate) inner: Arc<Pipeline>,
     pub(crate) targets: Targets,
     pub(crate) blends: bool,
+    /// Bytes of a vertex in a draw's vertex buffer; 0 if it takes none.
+    pub(crate) vertex_stride: u32,
     capture_stride: Option<u32>,
 }
 
@@ -204,6 +207,7 @@ impl Device {
             inner: Arc::new(inner),
             targets: desc.targets(),
             blends: desc.blend != Blend::Replace,
+            vertex_stride: desc.vertex.reflection().vertex_stride(),
             capture_stride: desc.last_before_rasterizer().reflection().capture_stride,
         })
     }
@@ -260,7 +264,11 @@ impl Device {
         let stages: Vec<_> =
             data.iter().zip(&specializations).map(|(stage, constants)| stage.info(constants)).collect();
 
-        let vertex_input = vk::PipelineVertexInputStateCreateInfo::default();
+        let reflection = desc.vertex.reflection();
+        let (vertex_bindings, attributes) = (state::vertex_bindings(reflection), state::attributes(reflection));
+        let vertex_input = vk::PipelineVertexInputStateCreateInfo::default()
+            .vertex_binding_descriptions(&vertex_bindings)
+            .vertex_attribute_descriptions(&attributes);
         let assembly = vk::PipelineInputAssemblyStateCreateInfo::default().topology(state::topology(desc.topology));
         let patch_points = desc.tessellation.map_or(0, |tessellation| tessellation.patch_points);
         let tessellation = vk::PipelineTessellationStateCreateInfo::default().patch_control_points(patch_points);

@@ -231,6 +231,7 @@ mod tests {
             stage,
             entry_point: "main".to_owned(),
             resources: resources.iter().map(resource).collect(),
+            inputs: Vec::new(),
             push_constant_size,
             specialization: Vec::new(),
             local_size: None,

@@ -164,7 +164,9 @@ pub use recording::{
     CapturePass, ColorTarget, ComputePass, DepthTarget, Draw, Measure, Recording, RenderPass, Vertices,
 };
 pub use rect::Rect;
-pub use reflect::{Extent, ReflectError, Reflection, ResourceBinding, ResourceKind, SpecConstant, Stage, reflect};
+pub use reflect::{
+    Extent, ReflectError, Reflection, ResourceBinding, ResourceKind, SpecConstant, Stage, VertexInput, reflect,
+};
 pub use requirements::Enabled;
 pub use sampler::{Filter, Sampler, SamplerDesc, Wrap};
 pub use shader::Shader;

@@ -70,6 +70,7 @@ pub(crate) struct Call<'a> {
 pub(crate) struct DrawCall<'a> {
     pub(crate) call: Call<'a>,
     pub(crate) vertices: &'a Vertices,
+    pub(crate) attributes: Option<&'a Buffer>,
     pub(crate) instances: Range<u32>,
     pub(crate) scissor: Option<Rect>,
 }

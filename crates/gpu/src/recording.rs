@@ -52,6 +52,8 @@ pub struct Draw {
     pub push: Vec<u8>,
     /// Which vertices.
     pub vertices: Vertices,
+    /// The buffer that the inputs of the vertex shader come from: for each vertex, all of them in order of their locations, without gaps. `None` if it has no inputs.
+    pub attributes: Option<Buffer>,
     /// Which instances, values of `gl_InstanceIndex`; usually `0..1`.
     pub instances: Range<u32>,
     /// Texels of the targets that it may touch; `None` for all of the pass's area. May reach beyond the area.

@@ -2,6 +2,7 @@
 //!
 //! Layouts and barriers come from here, so they cannot disagree with the shaders. Terms are those of the SPIR-V specification.
 
+mod attributes;
 mod image;
 mod reader;
 
@@ -128,6 +129,17 @@ impl Extent {
     }
 }
 
+/// An attribute that a vertex shader reads from the vertex buffer of a draw: one to four numbers of 32 bits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct VertexInput {
+    /// `location` in GLSL.
+    pub location: u32,
+    /// What it is made of.
+    pub numbers: Numbers,
+    /// How many there are, 1 to 4.
+    pub components: u32,
+}
+
 /// What a module with one entry point declares.
 #[derive(Clone, Debug, PartialEq, Eq)]
 #[non_exhaustive]
@@ -138,6 +150,8 @@ pub struct Reflection {
     pub entry_point: String,
     /// The buffers and images that its code refers to, ascending by binding; declared but unused ones are left out.
     pub resources: Vec<ResourceBinding>,
+    /// Attributes, ascending by location; vertex shaders only. A vertex in a buffer is all of them in that order, without gaps.
+    pub inputs: Vec<VertexInput>,
     /// Bytes of push constants, a multiple of 4; 0 if there are none.
     pub push_constant_size: u32,
     /// Specialization constants, ascending by id.
@@ -150,6 +164,13 @@ pub struct Reflection {
     pub capture_stride: Option<u32>,
     /// It uses descriptor set 1, which is the caller's; [`Device::caller_shader`](crate::Device::caller_shader) only.
     pub uses_caller_set: bool,
+}
+
+impl Reflection {
+    /// Bytes of a vertex in a vertex buffer; 0 if the shader reads none.
+    pub fn vertex_stride(&self) -> u32 {
+        self.inputs.iter().map(|input| 4 * input.components).sum()
+    }
 }
 
 /// Why a module cannot be used.
@@ -200,6 +221,16 @@ pub enum ReflectError {
     #[error("{name:?} is {found}, only single buffers, sampler2D and image2D are supported")]
     Resource {
         /// Name of the resource.
+        name: String,
+        /// What it is.
+        found: &'static str,
+    },
+    /// A vertex shader reads an attribute of a kind that is not supported.
+    #[error(
+        "vertex attribute {name:?} is {found}, only numbers of 32 bits and vectors of them at locations 0 to 15 are supported"
+    )]
+    Input {
+        /// Name of the input.
         name: String,
         /// What it is.
         found: &'static str,

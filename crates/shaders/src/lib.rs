@@ -1,8 +1,9 @@
 //! The SPIR-V of the shaders folder, and the structs and bindings shared with it.
 //!
-//! A shader's name is its path below the shaders folder (`subdivide/face.comp`). Evaluation stages exist in variants, named by
-//! what follows a `#`: the spacing, and `capture` for those whose outputs go to transform feedback
-//! (`patch/regular.tese#odd,capture`); the exact patches' control stage by the points of its net (`patch/stam.tesc#18`). Sources are embedded too, so that a changed text can be compiled at run time.
+//! A shader's name is its path below the shaders folder (`subdivide/face.comp`). Some stages exist in variants, named by what follows a `#`: evaluation stages by
+//! the spacing, by what fragments see (`position`, `normal`, or everything) or `capture` for those whose outputs go to transform feedback, and by `mapped` for
+//! surfaces with texture coordinates (`patch/regular.tese#odd,capture`); the exact patches' control stage by the points of its net (`patch/stam.tesc#18`). The
+//! list is `build/variants.rs`. Sources are embedded too, so that a changed text can be compiled at run time.
 
 pub mod layout;
 

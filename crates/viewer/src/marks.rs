@@ -70,6 +70,7 @@ fn draw(pipeline: &GraphicsPipeline, side: &Side, push: MarkPush, vertices: u32)
         push: bytes_of(&push).to_vec(),
         vertices: (0..vertices).into(),
         instances: 0..1,
+        attributes: None,
         scissor: None,
     }
 }

@@ -129,6 +129,7 @@ impl Painter {
             bindings: Bindings::new().with_texture(binding::TEXTURE, picture, &sampler),
             push: bytes_of(&push).to_vec(),
             vertices: (0..3).into(),
+            attributes: None,
             instances: 0..1,
             scissor: Some(Rect { origin, size: picture.size() }),
         })
@@ -153,6 +154,7 @@ impl Painter {
                 bindings: bindings.clone().with_texture(binding::TEXTURE, image, sampler),
                 push: bytes_of(&push).to_vec(),
                 vertices: Vertices::Indexed { indices: self.indices.clone(), range },
+                attributes: None,
                 instances: 0..1,
                 scissor: Some(scissor),
             })

@@ -3,6 +3,7 @@
 use ash::vk;
 
 use super::GraphicsPipelineDesc;
+use crate::{Numbers, Reflection, VertexInput};
 
 /// What vertices are joined to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Default)]
@@ -178,4 +179,36 @@ pub(super) fn blend(blend: Blend) -> vk::PipelineColorBlendAttachmentState {
         Blend::Alpha => over(vk::BlendFactor::SRC_ALPHA),
         Blend::Premultiplied => over(vk::BlendFactor::ONE),
     }
+}
+
+/// The one vertex buffer, if there are attributes.
+pub(super) fn vertex_bindings(vertex: &Reflection) -> Vec<vk::VertexInputBindingDescription> {
+    let stride = vertex.vertex_stride();
+    let binding = vk::VertexInputBindingDescription::default().stride(stride).input_rate(vk::VertexInputRate::VERTEX);
+    if stride > 0 { vec![binding] } else { Vec::new() }
+}
+
+/// Where the attributes lie in a vertex: in order of their locations, without gaps.
+pub(super) fn attributes(vertex: &Reflection) -> Vec<vk::VertexInputAttributeDescription> {
+    let offsets = vertex.inputs.iter().scan(0, |end, input| {
+        let offset = *end;
+        *end += 4 * input.components;
+        Some(offset)
+    });
+    let attribute = |(input, offset): (&VertexInput, u32)| {
+        let format = attribute_format(input.numbers, input.components);
+        vk::VertexInputAttributeDescription::default().location(input.location).format(format).offset(offset)
+    };
+    vertex.inputs.iter().zip(offsets).map(attribute).collect()
+}
+
+/// Every Vulkan device reads attributes of these formats.
+fn attribute_format(numbers: Numbers, components: u32) -> vk::Format {
+    use vk::Format as F;
+    let formats = match numbers {
+        Numbers::Float => [F::R32_SFLOAT, F::R32G32_SFLOAT, F::R32G32B32_SFLOAT, F::R32G32B32A32_SFLOAT],
+        Numbers::Uint => [F::R32_UINT, F::R32G32_UINT, F::R32G32B32_UINT, F::R32G32B32A32_UINT],
+        Numbers::Int => [F::R32_SINT, F::R32G32_SINT, F::R32G32B32_SINT, F::R32G32B32A32_SINT],
+    };
+    formats[components.clamp(1, 4) as usize - 1]
 }

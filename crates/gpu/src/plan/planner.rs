@@ -196,8 +196,9 @@ impl Planner<'_> {
             if let Vertices::Indexed { indices, range } = &draw.vertices {
                 self.index(indices, range.clone())?;
             }
+            let attributes = self.attributes(draw)?;
             let (vertices, instances) = (&draw.vertices, draw.instances.clone());
-            calls.push(DrawCall { call, vertices, instances, scissor: draw.scissor });
+            calls.push(DrawCall { call, vertices, attributes, instances, scissor: draw.scissor });
         }
         Ok(calls)
     }
@@ -210,6 +211,34 @@ impl Planner<'_> {
         }
         let read = Scope::new(vk::PipelineStageFlags2::INDEX_INPUT, vk::AccessFlags2::INDEX_READ);
         self.touch_buffer(indices, read, Scope::default())
+    }
+
+    /// Takes note of a read of vertex attributes.
+    fn attributes<'a>(&mut self, draw: &'a Draw) -> Result<Option<&'a Buffer>, GpuError> {
+        let (name, stride) = (draw.pipeline.name(), u64::from(draw.pipeline.vertex_stride));
+        let buffer = match &draw.attributes {
+            Some(_) if stride == 0 => {
+                return Err(
+                    self.refuse(&format!("pipeline {name:?} takes no attributes of vertices, but there are some"))
+                );
+            }
+            None if stride > 0 => {
+                return Err(self.refuse(&format!(
+                    "pipeline {name:?} takes {stride} bytes of attributes a vertex, but there are none"
+                )));
+            }
+            None => return Ok(None),
+            Some(buffer) => buffer,
+        };
+        buffer.require(BufferUsage::VERTEX, self.name)?;
+        if let Vertices::Range(range) = &draw.vertices
+            && !range.is_empty()
+        {
+            buffer.check(u64::from(range.start) * stride..u64::from(range.end) * stride, self.name)?;
+        }
+        let read = Scope::new(vk::PipelineStageFlags2::VERTEX_ATTRIBUTE_INPUT, vk::AccessFlags2::VERTEX_ATTRIBUTE_READ);
+        self.touch_buffer(buffer, read, Scope::default())?;
+        Ok(Some(buffer))
     }
 
     /// Resolves a pipeline's bindings and push constants, given those of the draw before.

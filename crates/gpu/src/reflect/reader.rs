@@ -7,7 +7,10 @@ use rspirv::{
     spirv::{BuiltIn, Capability, Decoration, ExecutionMode, ExecutionModel, Op, StorageClass, Word},
 };
 
-use super::{Extent, ReflectError, Reflection, ResourceBinding, ResourceKind, SpecConstant, Stage, image};
+use super::{
+    Extent, ReflectError, Reflection, ResourceBinding, ResourceKind, SpecConstant, Stage, VertexInput, attributes,
+    image,
+};
 
 /// Deepest nesting of types that is followed; a malformed module may nest a type in itself.
 const MAX_DEPTH: u32 = 32;
@@ -75,6 +78,7 @@ impl<'a> Reader<'a> {
             stage,
             entry_point,
             resources,
+            inputs: if stage == Stage::Vertex { self.inputs()? } else { Vec::new() },
             push_constant_size: self.push_constant_size()?,
             specialization: self.specialization(),
             local_size: if stage == Stage::Compute { Some(self.local_size()?) } else { None },
@@ -183,6 +187,27 @@ impl<'a> Reader<'a> {
     fn block_name(&self, variable: Word, block: Word) -> String {
         let of = |id: Word| self.names.get(&id).filter(|name| !name.is_empty());
         of(block).or_else(|| of(variable)).map_or_else(|| format!("%{variable}"), |name| (*name).to_owned())
+    }
+
+    /// The attributes of a vertex shader: all that it declares, since pipelines must have them whether they are read or not.
+    fn inputs(&self) -> Result<Vec<VertexInput>, ReflectError> {
+        let declared = self.module.types_global_values.iter().filter(|one| one.class.opcode == Op::Variable);
+        let mut inputs = Vec::new();
+        for instruction in declared {
+            let (id, class, pointee) = self.variable(instruction)?;
+            let Some(location) = self.value(id, None, Decoration::Location).filter(|_| class == StorageClass::Input)
+            else {
+                continue;
+            };
+            let refuse = |found| ReflectError::Input { name: self.block_name(id, pointee), found };
+            let input = attributes::input(&self.globals, location, pointee).map_err(refuse)?;
+            if inputs.iter().any(|other: &VertexInput| other.location == location) {
+                return Err(refuse("a second one at its location"));
+            }
+            inputs.push(input);
+        }
+        inputs.sort_by_key(|input| input.location);
+        Ok(inputs)
     }
 
     fn push_constant_size(&self) -> Result<u32, ReflectError> {

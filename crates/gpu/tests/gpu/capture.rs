@@ -78,6 +78,7 @@ fn draws(pipeline: &GraphicsPipeline, bindings: &Bindings, patches: &[[u32; 2]])
         push: vec![],
         vertices: (4 * first..4 * end).into(),
         instances: 0..1,
+        attributes: None,
         scissor: None,
     };
     patches.iter().map(draw).collect()

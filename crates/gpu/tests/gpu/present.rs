@@ -106,6 +106,7 @@ fn draws_into_a_frame_are_shown_and_can_be_read() {
             push: vec![],
             vertices: (0..3).into(),
             instances: 0..1,
+            attributes: None,
             scissor: None,
         };
         let frame = frame(presenter);

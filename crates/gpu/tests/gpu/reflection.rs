@@ -196,3 +196,35 @@ fn damaged_modules_do_not_panic() {
         }
     }
 }
+
+#[test]
+fn attributes_have_numbers_and_a_stride() {
+    let found = reflected(
+        "attributes.vert",
+        "layout(location = 3) in uint id; layout(location = 0) in vec3 position; layout(location = 1) in ivec2 unused;
+         layout(location = 7) out float result;
+         void main() { gl_Position = vec4(position, float(id)); result = 1.0; }",
+    );
+    let inputs: Vec<_> = found.inputs.iter().map(|one| (one.location, one.numbers, one.components)).collect();
+    assert_eq!(inputs, [(0, Numbers::Float, 3), (1, Numbers::Int, 2), (3, Numbers::Uint, 1)]);
+    assert_eq!(found.vertex_stride(), 24, "what is not read has its place too");
+    let fragment =
+        "layout(location = 0) in vec3 normal; layout(location = 0) out vec4 c; void main() { c = vec4(normal, 1); }";
+    let fragment = reflected("plain.frag", fragment);
+    assert_eq!((fragment.inputs.len(), fragment.vertex_stride()), (0, 0), "inputs of other stages are no attributes");
+}
+
+#[test]
+fn attributes_of_other_kinds_are_refused() {
+    let two = "layout(location = 2) in vec3 narrow; layout(location = 2, component = 3) in float odd;";
+    for (declared, point, part) in [
+        ("layout(location = 0) in mat3 odd;", "vec4(odd[0], 1.0)", "32 bits"),
+        ("layout(location = 0) in float odd[2];", "vec4(odd[0])", "32 bits"),
+        ("layout(location = 16) in vec3 odd;", "vec4(odd, 1.0)", "above 15"),
+        (two, "vec4(narrow, odd)", "a second one"),
+    ] {
+        let error = refused("attributes.vert", &format!("{declared} void main() {{ gl_Position = {point}; }}"));
+        let (kind, text) = (matches!(error, ReflectError::Input { .. }), error.to_string());
+        assert!(kind && text.contains("odd") && text.contains(part), "{declared}: {text}");
+    }
+}

@@ -346,6 +346,7 @@ fn draw(pipeline: &GraphicsPipeline, vertices: Vertices) -> Draw {
         push: vec![],
         vertices,
         instances: 0..1,
+        attributes: None,
         scissor: None,
     }
 }
@@ -430,5 +431,34 @@ fn captures_are_checked() {
         let echo = device.graphics_pipeline(&GraphicsPipelineDesc { rasterizer_discard: true, ..plain }).unwrap();
         let draws = vec![Draw { bindings: bind(&[&buffer]), ..draw(&echo, (0..3).into()) }];
         refused(device, &["captures into a buffer that its draws use"], |r| r.capture(pass(&buffer, draws)));
+    });
+}
+
+#[test]
+fn attributes_are_checked() {
+    with_device(|device| {
+        let color = target(device, "color", Format::Rgba8Unorm, 1);
+        let vertex = "layout(location = 0) in vec3 p; void main() { gl_Position = vec4(p, 1.0); }";
+        let vertex = shader(device, "taking.vert", vertex);
+        let desc = GraphicsPipelineDesc::new("taking", &vertex);
+        let taking = GraphicsPipelineDesc { color_format: Some(Format::Rgba8Unorm), ..desc };
+        let taking = device.graphics_pipeline(&taking).unwrap();
+        let plain = simple_pipeline(device, Some(Format::Rgba8Unorm), false);
+        let triangle = device.upload("triangle", BufferUsage::VERTEX, &[[0.0f32; 3]; 3]).unwrap();
+        let storage = device.upload("storage", BufferUsage::STORAGE, &[[0.0f32; 3]; 3]).unwrap();
+        let clear = Some([0.0; 4]);
+        let pass =
+            |pipeline: &GraphicsPipeline, attributes: Option<&osculate_gpu::Buffer>, vertices: Vertices| RenderPass {
+                name: "draw".to_owned(),
+                color: Some(ColorTarget { image: color.clone(), clear, resolve: None }),
+                depth: None,
+                viewport: [16, 16].into(),
+                area: None,
+                draws: vec![Draw { attributes: attributes.cloned(), ..draw(pipeline, vertices) }],
+            };
+        refused(device, &["\"taking\"", "12 bytes", "none"], |r| r.render(pass(&taking, None, (0..3).into())));
+        refused(device, &["\"simple\"", "no attributes"], |r| r.render(pass(&plain, Some(&triangle), (0..3).into())));
+        refused(device, &["\"storage\"", "usage"], |r| r.render(pass(&taking, Some(&storage), (0..3).into())));
+        refused(device, &["\"triangle\""], |r| r.render(pass(&taking, Some(&triangle), (1..4).into())));
     });
 }

@@ -35,6 +35,7 @@ fn draw(pipeline: &GraphicsPipeline, color: [f32; 4], depth: f32) -> Draw {
         push: push(color, depth),
         vertices: (0..3).into(),
         instances: 0..1,
+        attributes: None,
         scissor: None,
     }
 }
@@ -289,6 +290,7 @@ fn indices_choose_vertices() {
             vertices: Vertices::Indexed { indices, range: 2..5 },
             // The instance moves it into the picture's left half.
             instances: 1..2,
+            attributes: None,
             scissor: None,
         };
         assert_eq!(texels(device, pass(cleared(&image, None), None, vec![draw]), &image)[0], [255, 0, 0, 255]);
@@ -338,8 +340,15 @@ fn a_tessellated_quad_fills_its_square_solid_and_as_wires() {
             };
             let pipeline = device.graphics_pipeline(&desc)?;
             let bindings = Bindings::new();
-            let draw =
-                Draw { pipeline, bindings, push: vec![], vertices: (0..4).into(), instances: 0..1, scissor: None };
+            let draw = Draw {
+                pipeline,
+                bindings,
+                push: vec![],
+                vertices: (0..4).into(),
+                attributes: None,
+                instances: 0..1,
+                scissor: None,
+            };
             let image = target(device, name, Format::Rgba8Unorm, 1);
             Ok::<_, GpuError>(texels(device, pass(cleared(&image, None), None, vec![draw]), &image))
         };
@@ -351,6 +360,62 @@ fn a_tessellated_quad_fills_its_square_solid_and_as_wires() {
             assert_eq!(wires.unwrap(), [blue, blue]);
         } else {
             assert!(matches!(wires, Err(GpuError::MissingFeature { .. })));
+        }
+    });
+}
+
+#[test]
+fn attributes_are_read_in_order_of_their_locations() {
+    with_device(|device| {
+        let image = target(device, "picture", Format::Rgba8Unorm, 1);
+        let vertex = shader(
+            device,
+            "attributes.vert",
+            "layout(location = 5) in uint red; layout(location = 0) in vec2 corner; layout(location = 1) in ivec2 shift;
+             layout(location = 0) out flat uint color;
+             void main() { gl_Position = vec4(corner + vec2(shift), 0.0, 1.0); color = red; }",
+        );
+        let fragment = shader(
+            device,
+            "attributes.frag",
+            "layout(location = 0) in flat uint color; layout(location = 0) out vec4 c;
+             void main() { c = vec4(float(color) / 255.0, 0, 0, 1); }",
+        );
+        let desc =
+            GraphicsPipelineDesc { fragment: Some(&fragment), ..GraphicsPipelineDesc::new("attributes", &vertex) };
+        let desc = GraphicsPipelineDesc { color_format: Some(Format::Rgba8Unorm), ..desc };
+        let pipeline = device.graphics_pipeline(&desc).unwrap();
+        // Corner, shift and colour of three vertices that cover the left half, and one that is not drawn.
+        let vertex = |corner: [f32; 2], shift: [i32; 2]| {
+            [corner[0].to_bits(), corner[1].to_bits(), shift[0] as u32, shift[1] as u32, 200]
+        };
+        let vertices = [
+            vertex([9.0; 2], [0; 2]),
+            vertex([1.0, -2.0], [-1; 2]),
+            vertex([-2.0, 1.0], [-1; 2]),
+            vertex([0.0, 3.0], [0; 2]),
+        ];
+        let usage = BufferUsage::VERTEX | BufferUsage::STORAGE;
+        let attributes = device.upload("vertices", usage, &[[0u32; 5]; 4]).unwrap();
+        // Written by a pass before, so that a barrier must stand between.
+        let source = device.upload("source", BufferUsage::empty(), &vertices).unwrap();
+        let indices = device.upload("indices", BufferUsage::INDEX, &[1u32, 2, 3]).unwrap();
+        let indexed = Vertices::Indexed { indices, range: 0..3 };
+        for vertices in [indexed, (1..4).into()] {
+            let draw = Draw {
+                pipeline: pipeline.clone(),
+                bindings: Bindings::new(),
+                push: vec![],
+                vertices,
+                attributes: Some(attributes.clone()),
+                instances: 0..1,
+                scissor: None,
+            };
+            let mut recording = Recording::new();
+            recording.copy_buffer(&source, 0..source.size(), &attributes, 0);
+            recording.render(pass(cleared(&image, None), None, vec![draw]));
+            device.run(&recording).unwrap();
+            assert_eq!(read_texels(device, &image), [[200, 0, 0, 255], [0, 0, 255, 255]]);
         }
     });
 }

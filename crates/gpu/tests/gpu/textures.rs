@@ -199,7 +199,15 @@ fn what_one_pass_draws_the_next_one_samples() {
         let pipeline = device.graphics_pipeline(&plain).unwrap();
         let sampler = nearest(device);
         let bindings = Bindings::new().with_texture(3, &color, &sampler).with_texture(1, &depth, &sampler);
-        let draw = Draw { pipeline, bindings, push: vec![], vertices: (0..3).into(), instances: 0..1, scissor: None };
+        let draw = Draw {
+            pipeline,
+            bindings,
+            push: vec![],
+            vertices: (0..3).into(),
+            attributes: None,
+            instances: 0..1,
+            scissor: None,
+        };
         let pass = |image: &Image, clear, depth, draws| RenderPass {
             name: "pass".to_owned(),
             color: Some(ColorTarget { image: image.clone(), clear: Some(clear), resolve: None }),

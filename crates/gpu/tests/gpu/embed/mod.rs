@@ -197,7 +197,7 @@ fn covering(
 
 fn draw(pipeline: &GraphicsPipeline, bindings: Bindings) -> Draw {
     let (pipeline, push) = (pipeline.clone(), vec![]);
-    Draw { pipeline, bindings, push, vertices: (0..3).into(), instances: 0..1, scissor: None }
+    Draw { pipeline, bindings, push, vertices: (0..3).into(), attributes: None, instances: 0..1, scissor: None }
 }
 
 fn whole(draws: &[Draw]) -> EncodeDraws<'_> {
