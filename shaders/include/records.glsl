@@ -4,8 +4,7 @@
 #define RECORDS_GLSL
 #include "bindings.glsl"
 #include "constants.glsl"
-#include "vector.glsl"
-#include "bezier.glsl"
+#include "edge_record.glsl"
 
 // What a patch needs beside its net. vertex[k]: record of corner k. edge[k]: record of side k, shifted left by one, plus the flip bit.
 struct PatchRecord {
@@ -25,11 +24,6 @@ layout(std430, set = 0, binding = BINDING_PATCHES) readonly buffer Patches { Pat
 layout(std430, set = 0, binding = BINDING_VERTEX_RECORDS) readonly buffer VertexRecords { float vertex_records[]; };
 layout(std430, set = 0, binding = BINDING_EDGE_RECORDS) readonly buffer EdgeRecords { float edge_records[]; };
 
-struct SurfacePoint {
-    vec3 position;
-    vec3 normal;
-};
-
 vec3 edge_record_point(uint edge, uint i) {
     uint at = EDGE_RECORD_FLOATS * edge + 3u * i;
     return vec3(edge_records[at], edge_records[at + 1u], edge_records[at + 2u]);
@@ -42,12 +36,6 @@ SurfacePoint vertex_record_point(uint vertex) {
         vec3(vertex_records[at + 3u], vertex_records[at + 4u], vertex_records[at + 5u]));
 }
 
-// An edge record at hand: the control points of C and of D.
-struct EdgeRecord {
-    vec3 curve[4];
-    vec3 cross_field[4];
-};
-
 EdgeRecord load_edge_record(uint edge) {
     EdgeRecord r;
     for (uint i = 0u; i < 4u; ++i) {
@@ -55,16 +43,6 @@ EdgeRecord load_edge_record(uint edge) {
         r.cross_field[i] = edge_record_point(edge, 4u + i);
     }
     return r;
-}
-
-// The point of an edge record at t: position C(t), normal along C'(t) x D(t).
-SurfacePoint edge_point(EdgeRecord edge, float t) {
-    vec4 b = bernstein3(t);
-    vec3 c[4] = edge.curve;
-    vec3 d[4] = edge.cross_field;
-    vec3 tangent = combine_differences(bernstein2(t), c[0], c[1], c[2], c[3]);
-    vec3 cross_field = combine4(b, d[0], d[1], d[2], d[3]);
-    return SurfacePoint(combine4(b, c[0], c[1], c[2], c[3]), unit_or_zero(cross_product(tangent, cross_field)));
 }
 
 SurfacePoint edge_record_at(uint edge, float t) {

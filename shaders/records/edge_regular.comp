@@ -1,40 +1,20 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Edge records between regular vertices: four rows of points across the edge (left, middle, right); C from the limits across, D from half their
-// differences. Derivation: osculate_surface::gregory::edge(Regular, side). Twin: osculate_subdiv::twin::edge_records.
+// Edge records between regular vertices.
 #include "thread.glsl"
 #include "kernel_push.glsl"
-#include "regular_sources.glsl"
+#include "regular_edge.glsl"
 #include "edge_store.glsl"
-#include "bezier.glsl"
-
-// Net index of the first middle point of each side, the step along the side, and the step to its left.
-const uint START[4] = uint[](4u, 2u, 11u, 13u);
-const int ALONG[4] = int[](1, 4, -1, -4);
-const int LEFT[4] = int[](4, -1, -4, 1);
 
 void main() {
-    uint record = thread_index();
-    if (record >= kernel.count) {
+    uint source = thread_index();
+    if (source >= kernel.count) {
         return;
     }
-    uint patch_id = regular_sources[record] >> 2u;
-    uint side = regular_sources[record] & 3u;
-    vec3 limit[4];
-    vec3 slope[4];
-    for (int i = 0; i < 4; ++i) {
-        int at = int(START[side]) + i * ALONG[side];
-        vec3 left = regular_net_point(patch_id, uint(at + LEFT[side]));
-        vec3 middle = regular_net_point(patch_id, uint(at));
-        vec3 right = regular_net_point(patch_id, uint(at - LEFT[side]));
-        precise vec3 m = (left + right) * (1.0 / 6.0) + middle * (2.0 / 3.0);
-        precise vec3 d = (left - right) * 0.5;
-        limit[i] = m;
-        slope[i] = d;
-    }
-    uint edge = kernel.first + record;
+    EdgeRecord record = regular_edge_record(source);
+    uint edge = kernel.first + source;
     for (uint row = 0u; row < 4u; ++row) {
-        store_edge_point(edge, row, bspline_to_bezier(row, limit[0], limit[1], limit[2], limit[3]));
-        store_edge_point(edge, row + 4u, bspline_to_bezier(row, slope[0], slope[1], slope[2], slope[3]));
+        store_edge_point(edge, row, record.curve[row]);
+        store_edge_point(edge, row + 4u, record.cross_field[row]);
     }
 }

@@ -87,6 +87,8 @@ pub(crate) struct ResidentGrids {
     rates: GridRates,
     /// The passes that evaluate them.
     passes: Recording,
+    /// Those from points to vertices, where there are shorter ones than by way of all records.
+    update: Option<Recording>,
     triangles: u64,
     vertices: u64,
     bytes: u64,
@@ -233,6 +235,23 @@ impl Drawing {
         }
     }
 
+    /// Adds the passes from the points of [`Surface::write_points`] to the draws: the same as [`Surface::record_update`] and [`Self::record`], or fewer. What the draws
+    /// do not look at may stay as it was, the surface's records among it: for drawings that are all that becomes of their surface. Whoever else looks at it
+    /// (another drawing, a capture, a sample) takes those two.
+    ///
+    /// # Errors
+    /// If a pipeline cannot be made.
+    pub fn record_update(&self, recording: &mut Recording) -> Result<(), EngineError> {
+        match self.grids.as_ref().and_then(|grids| grids.update.as_ref()) {
+            Some(update) => recording.append(update),
+            None => {
+                self.surface.record_update(recording)?;
+                self.record(recording);
+            }
+        }
+        Ok(())
+    }
+
     /// The draws of a frame, to be put into a pass on [`DrawingDesc::target`] and depths of [`Target::DEPTH`].
     pub fn draws(&self) -> &[Draw] {
         &self.draws
@@ -279,11 +298,12 @@ impl ResidentGrids {
         let mut passes = Recording::new();
         let (mut triangles, mut vertices, mut bytes) = (0, 0, 0);
         let grids = Grids::drawn(surface, &rates, outputs[0])?;
-        let mut chunks: Vec<(GridChunk, Buffer)> = Vec::new();
+        let (mut chunks, mut update): (Vec<(GridChunk, Buffer)>, _) = (Vec::new(), None);
         for chunk in grids.chunks() {
             let chunk = chunk?;
             let indices = surface.engine().device().upload("grid indices", BufferUsage::INDEX, &chunk.indices)?;
             grids.record(&chunk, frame, &mut passes)?;
+            update = grids.update(&chunk, frame)?;
             triangles += chunk.indices.len() as u64 / 3;
             vertices += chunk.vertex_count();
             bytes += chunk.bytes() + indices.size();
@@ -294,7 +314,7 @@ impl ResidentGrids {
                 draws.push(grids.draw(chunk, indices, frame, output)?);
             }
         }
-        Ok(Self { rates, passes, triangles, vertices, bytes })
+        Ok(Self { rates, passes, update, triangles, vertices, bytes })
     }
 
     /// How the edges are divided.

@@ -1,5 +1,9 @@
 //! The compute evaluator: chunks of patches become vertices in a buffer, and triangles between them.
 
+mod by_record;
+mod kernels;
+mod measured;
+
 use std::ops::Range;
 
 use bytemuck::{NoUninit, bytes_of};
@@ -13,161 +17,13 @@ use crate::frame::FrameDesc;
 use crate::grid::{Chunk, GridPlan, GridPlanDesc, GridRates, Layout};
 use crate::kernels::{Kernel, fold};
 use crate::pipelines::KernelKey;
-use crate::{CapturedVertex, EngineError, Factors, Shade, Surface, Tessellation};
+use crate::{CapturedVertex, EngineError, Factors, Surface, Tessellation};
+use kernels::{GridKernel, Share, grid_kernels};
+pub(crate) use measured::Measured;
 
-/// Most bytes of vertices made at once, unless the device allows less.
+/// Most bytes of vertices made at once, unless the device allows less: of patches in chunks, and of all patches numbered by records.
 const CHUNK_BYTES: u64 = 64 << 20;
-
-/// The kernel that evaluates patches of a form, a workgroup each: their insides, and their borders where those are measured by the patch's own formula.
-fn kernel(form: PatchForm, mapped: bool) -> &'static str {
-    match (form, mapped) {
-        (PatchForm::Bicubic, false) => "evaluate/bicubic.comp",
-        (PatchForm::Gregory, false) => "evaluate/gregory.comp",
-        (PatchForm::Stam, false) => "evaluate/stam.comp",
-        (PatchForm::Biseptic, false) => "evaluate/biseptic.comp",
-        (PatchForm::Triangle, false) => "evaluate/triangle.comp",
-        (PatchForm::Bicubic, true) => "evaluate/bicubic.comp#mapped",
-        (PatchForm::Gregory, true) => "evaluate/gregory.comp#mapped",
-        (PatchForm::Stam, true) => "evaluate/stam.comp#mapped",
-        (PatchForm::Biseptic, true) => "evaluate/biseptic.comp#mapped",
-        (PatchForm::Triangle, true) => "evaluate/triangle.comp#mapped",
-    }
-}
-
-/// The kernel that evaluates insides of patches of a form, a thread each, if there is one.
-fn lane_kernel(form: PatchForm, mapped: bool) -> Option<&'static str> {
-    match (form, mapped) {
-        (PatchForm::Bicubic, false) => Some("evaluate/bicubic_lanes.comp"),
-        (PatchForm::Gregory, false) => Some("evaluate/gregory_lanes.comp"),
-        (PatchForm::Bicubic, true) => Some("evaluate/bicubic_lanes.comp#mapped"),
-        (PatchForm::Gregory, true) => Some("evaluate/gregory_lanes.comp#mapped"),
-        (PatchForm::Stam | PatchForm::Biseptic | PatchForm::Triangle, _) => None,
-    }
-}
-
-/// The kernel that evaluates borders of patches of a form from records alone, a thread for each corner and side.
-fn border_kernel(form: PatchForm, mapped: bool) -> &'static str {
-    match (form, mapped) {
-        (PatchForm::Bicubic | PatchForm::Gregory, false) => "evaluate/border_quad.comp",
-        (PatchForm::Stam, false) => "evaluate/border_stam.comp",
-        (PatchForm::Biseptic, false) => "evaluate/border_biseptic.comp",
-        (PatchForm::Triangle, false) => "evaluate/border_triangle.comp",
-        (PatchForm::Bicubic | PatchForm::Gregory, true) => "evaluate/border_quad.comp#mapped",
-        (PatchForm::Stam, true) => "evaluate/border_stam.comp#mapped",
-        (PatchForm::Biseptic, true) => "evaluate/border_biseptic.comp#mapped",
-        (PatchForm::Triangle, true) => "evaluate/border_triangle.comp#mapped",
-    }
-}
-
-/// What evaluates a patch.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Share {
-    Workgroup,
-    Thread,
-    /// A thread for each corner and the side that leaves it.
-    FourThreads,
-}
-
-/// One of the kernels that evaluate patches of a form.
-#[derive(Clone, Copy)]
-struct GridKernel {
-    shader: &'static str,
-    share: Share,
-    /// Whether it makes inner vertices alone.
-    inside: bool,
-}
-
-/// The kernels that evaluate patches of a form. Where places are all that is measured, borders need no control points, and have a kernel of their own.
-///
-/// `lanes`: threads are lanes of a vector, so that a thread for each patch is better than a workgroup.
-fn grid_kernels(form: PatchForm, mapped: bool, measure: Measured, lanes: bool) -> impl Iterator<Item = GridKernel> {
-    let apart = !measure.takes_patch();
-    let border = GridKernel { shader: border_kernel(form, mapped), share: Share::FourThreads, inside: false };
-    let whole = GridKernel { shader: kernel(form, mapped), share: Share::Workgroup, inside: apart };
-    let lane = lane_kernel(form, mapped).filter(|_| lanes && apart);
-    let inside = lane.map_or(whole, |shader| GridKernel { shader, share: Share::Thread, inside: true });
-    apart.then_some(border).into_iter().chain([inside])
-}
-
-/// What vertices hold beside position and normal: few shades differ there, so that kernels do not multiply by shades. Unless it is nothing, the number of the
-/// patch comes with it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(crate) enum Measured {
-    /// Nothing.
-    Nothing,
-    /// (u,v) as it is: of vertices that are not drawn.
-    Parameters,
-    /// What patches are outlined by.
-    Outline,
-    /// Mean and Gaussian curvature.
-    Curvature,
-    /// Width of the triangles in pixels.
-    Width,
-    /// Segments across the patch.
-    Segments,
-    /// Texture coordinates.
-    Texture,
-}
-
-impl Measured {
-    /// What the fragments of an output look at.
-    pub(crate) fn of(output: Output) -> Self {
-        match output {
-            Output::Fill(_, shade) if shade.layout() == Layout::Shared => Self::Nothing,
-            Output::Fill(_, shade) | Output::Material(_, shade) => Self::of_patch(shade),
-            Output::Lines(_) => Self::Width,
-            Output::Capture => Self::Parameters,
-        }
-    }
-
-    fn of_patch(shade: Shade) -> Self {
-        match shade {
-            Shade::Curvature | Shade::Gaussian => Self::Curvature,
-            Shade::Wireframe => Self::Width,
-            Shade::Factors => Self::Segments,
-            Shade::Textured | Shade::Uv => Self::Texture,
-            _ => Self::Outline,
-        }
-    }
-
-    /// Bytes of a vertex.
-    fn vertex_bytes(self) -> u64 {
-        let words = if self == Self::Nothing { constant::GRID_PLACE_WORDS } else { constant::GRID_VERTEX_WORDS };
-        4 * u64::from(words)
-    }
-
-    /// Whether it follows from the whole patch, its formula or how it is divided, on its border too (`shade_measures_patch` in
-    /// shaders/include/measure.glsl).
-    fn takes_patch(self) -> bool {
-        matches!(self, Self::Curvature | Self::Width | Self::Segments)
-    }
-
-    /// A shade that measures this.
-    pub(crate) fn shade(self) -> u32 {
-        match self {
-            Self::Nothing => constant::SHADE_LIT,
-            Self::Parameters => constant::SHADE_NONE,
-            Self::Outline => constant::SHADE_PATCHES,
-            Self::Curvature => constant::SHADE_CURVATURE,
-            Self::Width => constant::SHADE_WIREFRAME,
-            Self::Segments => constant::SHADE_FACTORS,
-            Self::Texture => constant::SHADE_UV,
-        }
-    }
-
-    /// The name for tools.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Nothing => "places",
-            Self::Parameters => "parameters",
-            Self::Outline => "outline",
-            Self::Curvature => "curvature",
-            Self::Width => "width",
-            Self::Segments => "segments",
-            Self::Texture => "texture",
-        }
-    }
-}
+const BY_RECORD_BYTES: u64 = 512 << 20;
 
 /// The grids of a surface.
 pub(crate) struct Grids<'a> {
@@ -177,6 +33,8 @@ pub(crate) struct Grids<'a> {
     measure: Measured,
     /// Where vertices go: the device, or where the host can read them.
     memory: Memory,
+    /// Parameters of all rates.
+    parameters: Buffer,
     bindings: Bindings,
 }
 
@@ -221,7 +79,8 @@ impl GridChunk {
 impl<'a> Grids<'a> {
     /// Those that are drawn: on the device.
     pub(crate) fn drawn(surface: &'a Surface, rates: &'a GridRates, output: Output) -> Result<Self, EngineError> {
-        Self::new(surface, rates, output, output.layout(), Memory::Device)
+        let layout = if by_record::fits(surface, rates, output) { Layout::ByRecord } else { output.layout() };
+        Self::new(surface, rates, output, layout, Memory::Device)
     }
 
     /// Those that the host reads.
@@ -237,10 +96,10 @@ impl<'a> Grids<'a> {
         memory: Memory,
     ) -> Result<Self, EngineError> {
         let measure = Measured::of(output);
-        surface.engine().prepare(surface.grid_kernels(output), [])?;
+        surface.engine().prepare(surface.grid_kernels(output, layout), [])?;
         let parameters = upload(surface, "grid parameters", rates.parameters())?;
         let bindings = surface.patch_bindings().with(binding::GRID_PARAMETERS, &parameters);
-        Ok(Self { surface, rates, layout, measure, memory, bindings })
+        Ok(Self { surface, rates, layout, measure, memory, parameters, bindings })
     }
 
     /// The chunks, made one at a time.
@@ -255,9 +114,7 @@ impl<'a> Grids<'a> {
     }
 
     fn max_vertices(&self) -> u32 {
-        let engine = self.surface.engine();
-        let bytes = CHUNK_BYTES.min(engine.device().info().limits.max_storage_buffer_range);
-        engine.desc().grid_vertices.unwrap_or((bytes / self.measure.vertex_bytes()) as u32)
+        self.surface.max_grid_vertices(CHUNK_BYTES, self.measure)
     }
 
     fn upload(&self, chunk: Chunk) -> Result<GridChunk, EngineError> {
@@ -281,6 +138,14 @@ impl<'a> Grids<'a> {
         frame: &Buffer,
         recording: &mut Recording,
     ) -> Result<(), EngineError> {
+        if self.layout == Layout::ByRecord {
+            self.record_border(chunk, recording)?;
+        }
+        self.record_patches(chunk, frame, recording)
+    }
+
+    /// Adds the kernels that take a patch at a time.
+    fn record_patches(&self, chunk: &GridChunk, frame: &Buffer, recording: &mut Recording) -> Result<(), EngineError> {
         let bindings = chunk.bindings.clone().with(binding::FRAME, frame);
         for (kernel, patches) in self.kernels(chunk) {
             let (count, first) = (patches.len() as u32, patches.start - chunk.patches.start);
@@ -298,7 +163,7 @@ impl<'a> Grids<'a> {
             if first >= end {
                 continue;
             }
-            let kernels = self.surface.grid_kernels_of(list.kind.form(), self.measure);
+            let kernels = self.surface.grid_kernels_of(list.kind.form(), self.measure, self.layout);
             for kernel in kernels.filter(|kernel| chunk.has_inside || !kernel.inside) {
                 match all.iter_mut().find(|(known, range)| known.shader == kernel.shader && range.end == first) {
                     Some((_, range)) => range.end = end,
@@ -359,15 +224,34 @@ fn upload<T: NoUninit>(surface: &Surface, name: &str, data: &[T]) -> Result<Buff
 
 impl Surface {
     /// The kernels that its patches need for an output.
-    pub(crate) fn grid_kernels(&self, output: Output) -> impl Iterator<Item = KernelKey> {
+    pub(crate) fn grid_kernels(&self, output: Output, layout: Layout) -> impl Iterator<Item = KernelKey> {
         let measure = Measured::of(output);
-        let kernels = move |form| self.grid_kernels_of(form, measure);
+        let kernels = move |form| self.grid_kernels_of(form, measure, layout);
         let shaders = self.plan().lists.iter().flat_map(move |list| kernels(list.kind.form()));
-        shaders.map(move |kernel| KernelKey { shader: kernel.shader, measure })
+        let edges = by_record::EDGE_KERNELS.into_iter().filter(move |_| layout == Layout::ByRecord);
+        shaders.map(move |kernel| KernelKey { shader: kernel.shader, measure }).chain(edges.map(KernelKey::from))
     }
 
-    fn grid_kernels_of(&self, form: PatchForm, measure: Measured) -> impl Iterator<Item = GridKernel> + use<> {
-        grid_kernels(form, self.is_mapped(), measure, self.engine().grid_lanes())
+    fn grid_kernels_of(
+        &self,
+        form: PatchForm,
+        measure: Measured,
+        layout: Layout,
+    ) -> impl Iterator<Item = GridKernel> + use<> {
+        let kernels = grid_kernels(form, self.is_mapped(), measure, self.engine().grid_lanes());
+        kernels.filter(move |kernel| kernel.inside || layout != Layout::ByRecord)
+    }
+
+    /// Most vertices in so many bytes, unless the device, or who wants small chunks, allows fewer.
+    fn max_grid_vertices(&self, bytes: u64, measure: Measured) -> u32 {
+        let bytes = bytes.min(self.engine().device().info().limits.max_storage_buffer_range);
+        self.engine().desc().grid_vertices.unwrap_or((bytes / measure.vertex_bytes()) as u32)
+    }
+
+    /// How vertices of an output are likely laid out: as it turns out, unless there are too many for one chunk.
+    pub(crate) fn likely_grid_layout(&self, output: Output, tessellation: &Tessellation) -> Layout {
+        let uniform = matches!(tessellation.factors, Factors::Uniform(_));
+        if uniform && by_record::suits(self, output) { Layout::ByRecord } else { output.layout() }
     }
 
     /// How the edges are divided.

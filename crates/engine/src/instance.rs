@@ -203,7 +203,8 @@ impl Instance {
     fn prepare(&self) -> Result<(), EngineError> {
         let (engine, output) = (self.surface.engine(), self.output());
         if self.in_compute() {
-            let kernels = self.surface.grid_kernels(output);
+            let kernels =
+                self.surface.grid_kernels(output, self.surface.likely_grid_layout(output, &self.tessellation));
             return engine.prepare(kernels, [PipelineKey::Grid { output, mapped: self.surface.is_mapped() }]);
         }
         engine.prepare(NO_KERNELS, self.surface.pipelines(self.division(), output))

@@ -34,7 +34,7 @@ impl Kernel<'_> {
 }
 
 /// Workgroups for so many threads, at most `GROUPS_X` along x (`thread_index` in shaders/include/thread.glsl).
-fn groups(threads: u32) -> [u32; 3] {
+pub(crate) fn groups(threads: u32) -> [u32; 3] {
     fold(threads.div_ceil(GROUP_SIZE))
 }
 

@@ -58,7 +58,9 @@ impl Look<'_> {
         let cage = self.cage.then_some([false, true].map(|hidden| PipelineKey::Cage { target, hidden }));
         let cage = cage.into_iter().flatten();
         if tessellation.renders_in_compute(engine.device()) {
-            let kernels = surfaces.iter().flat_map(|surface| surface.grid_kernels(self.output()));
+            let kernels = surfaces.iter().flat_map(|surface| {
+                surface.grid_kernels(self.output(), surface.likely_grid_layout(self.output(), tessellation))
+            });
             let grids = |output| surfaces.iter().map(move |one| PipelineKey::Grid { output, mapped: one.is_mapped() });
             return engine.prepare(kernels, self.outputs().flat_map(grids).chain(cage));
         }

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use glam::DVec3;
 use osculate_cage::{BoundaryRule, Cage};
-use osculate_gpu::Recording;
+use osculate_gpu::{Bindings, Buffer, Recording};
+use osculate_shaders::binding;
 use osculate_shaders::constant::EDGE_RECORD_POINTS;
 use osculate_shaders::layout::KernelPush;
 use osculate_subdiv::{Place, PlanDesc, SurfacePlan};
@@ -154,9 +155,29 @@ impl Surface {
     /// # Errors
     /// If a pipeline cannot be made.
     pub fn record_derived(&self, recording: &mut Recording) -> Result<(), EngineError> {
+        self.record_passes(recording, [&self.buffers.vertex_regular, &self.buffers.vertex_general], true)
+    }
+
+    /// The same as [`Self::record_update`] for a drawing whose vertices are numbered by records, and which is all that wants them: vertex records go to its vertices,
+    /// and those of regular edges are not made.
+    pub(crate) fn record_update_of(&self, recording: &mut Recording, vertices: &Buffer) -> Result<(), EngineError> {
+        let buffers = &self.buffers;
+        recording.copy_buffer(&buffers.staging, 0..buffers.staging.size(), &buffers.points, 0);
+        let [regular, general] = [&buffers.vertex_regular, &buffers.vertex_general]
+            .map(|tables| tables.clone().with(binding::VERTEX_RECORDS, vertices));
+        self.record_passes(recording, [&regular, &general], false)
+    }
+
+    /// Adds the passes of refined points, phantom points, records and coefficients: vertex records by these bindings, those of regular edges if they are wanted.
+    fn record_passes(
+        &self,
+        recording: &mut Recording,
+        vertex_tables: [&Bindings; 2],
+        regular_edges: bool,
+    ) -> Result<(), EngineError> {
         let plan = &self.plan;
         let mut kernels: Vec<Kernel<'_>> = (0..plan.levels.len()).flat_map(|level| self.level_kernels(level)).collect();
-        kernels.extend(self.record_kernels());
+        kernels.extend(self.record_kernels(vertex_tables, regular_edges));
         kernels.retain(|kernel| kernel.threads > 0);
         self.engine.prepare(kernels.iter().map(|kernel| kernel.shader), [])?;
         kernels.into_iter().try_for_each(|kernel| kernel.record(&self.engine, recording))
@@ -181,20 +202,21 @@ impl Surface {
     }
 
     /// The kernels of what is made from the points of the last level.
-    fn record_kernels(&self) -> [Kernel<'_>; 8] {
+    fn record_kernels<'a>(&'a self, vertex_tables: [&'a Bindings; 2], regular_edges: bool) -> [Kernel<'a>; 8] {
         let (plan, buffers) = (&self.plan, &self.buffers);
         let (vertices, edges) = (&plan.vertex_records, &plan.edge_records);
+        let regular_count = if regular_edges { edges.regular.len() } else { 0 };
         let per_element = |shader, bindings, count: usize, first: u32| (shader, bindings, count as u32, first, 1);
         [
             per_element("records/phantom.comp", &buffers.phantom, plan.reflections.len(), plan.first_phantom),
-            per_element("records/vertex_regular.comp", &buffers.vertex_regular, vertices.regular.len(), 0),
+            per_element("records/vertex_regular.comp", vertex_tables[0], vertices.regular.len(), 0),
             per_element(
                 "records/vertex_general.comp",
-                &buffers.vertex_general,
+                vertex_tables[1],
                 vertices.general.len(),
                 vertices.regular.len() as u32,
             ),
-            per_element("records/edge_regular.comp", &buffers.edge_regular, edges.regular.len(), 0),
+            per_element("records/edge_regular.comp", &buffers.edge_regular, regular_count, 0),
             // One thread for each control point.
             (
                 "records/edge_general.comp",

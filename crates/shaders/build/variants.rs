@@ -51,9 +51,9 @@ const NET_SIZES: &[Choice] = &[
 const GRID_STAGE: &str = "shade/grid.vert";
 const SURFACE_STAGE: &str = "shade/surface.frag";
 
-/// The folder of the kernels that evaluate patches, and one of them that evaluates none.
+/// The folder of the kernels that evaluate patches, and those of them that know nothing of texture coordinates.
 const EVALUATION_FOLDER: &str = "evaluate/";
-const FACTORS_STAGE: &str = "evaluate/factors.comp";
+const UNMAPPED_STAGES: [&str; 3] = ["evaluate/factors.comp", "evaluate/edges.comp", "evaluate/edges_regular.comp"];
 
 /// The variants of the file at a path: none if it is no stage.
 pub(crate) fn of(path: &str) -> Vec<Variant> {
@@ -62,7 +62,7 @@ pub(crate) fn of(path: &str) -> Vec<Variant> {
         Ok(_) if path == NET_SIZE_STAGE => &[NET_SIZES],
         Ok(_) if path == GRID_STAGE => &[SEEN],
         Ok(_) if path == SURFACE_STAGE => &[SEEN, MAPS],
-        Ok(Stage::Compute) if path.starts_with(EVALUATION_FOLDER) && path != FACTORS_STAGE => &[MAPS],
+        Ok(Stage::Compute) if path.starts_with(EVALUATION_FOLDER) && !UNMAPPED_STAGES.contains(&path) => &[MAPS],
         Ok(_) => &[],
         Err(_) => return Vec::new(),
     };

@@ -128,6 +128,18 @@ shared_structs! {
         pub old_distance: u32,
     }
 
+    /// What a kernel needs that writes the vertices along edges which are all divided alike (`shaders/include/edge_points_push.glsl`).
+    pub struct EdgePointsPush {
+        /// Edges to write.
+        pub count: u32,
+        /// Record of the first of them.
+        pub first_record: u32,
+        /// Vertex number of the first vertex of record 0.
+        pub first_vertex: u32,
+        /// How they are divided, as in [`GridPatch`].
+        pub rate: u32,
+    }
+
     /// How the compute evaluator divides one patch (`shaders/include/grid.glsl`). A rate is the number of segments and, from bit `GRID_SEGMENT_BITS` on,
     /// where its parameters begin.
     #[derive(Eq)]

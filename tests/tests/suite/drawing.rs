@@ -101,8 +101,10 @@ fn steady(engine: &Engine, cage: &Cage, evaluator: Evaluator) -> (Surface, Drawi
     let desc = RenderDesc { tessellation, samples: 1, ..RenderDesc::fit(cage, SIZE) };
     let drawing = drawing_of(&surface, &desc);
     let targets = Targets::new(engine, SIZE, drawing.desc().target).unwrap();
-    let mut recording = frame(&drawing, &targets, desc.background);
+    let mut recording = Recording::new();
     recording.measure(Measure { timings: false, statistics: true });
+    drawing.record_update(&mut recording).unwrap();
+    recording.render(targets.pass(drawing.draws().to_vec(), Some(desc.background)));
     let prepared = engine.device().prepare(&recording).unwrap();
     (surface, drawing, targets, prepared)
 }

@@ -126,8 +126,8 @@ fn a_gap_is_a_leak() {
         (
             Evaluator::Compute,
             "shade/grid.vert",
-            "gl_Position = clip_position(position);",
-            "gl_Position = gl_VertexIndex % 7 == 0 ? vec4(0.0) : clip_position(position);",
+            "gl_Position = clip_position(in_position);",
+            "gl_Position = gl_VertexIndex % 7 == 0 ? vec4(0.0) : clip_position(in_position);",
         ),
     ];
     let cage = zoo::shipped("triangles");

@@ -12,7 +12,7 @@ use crate::grid::plan::{GridPlanDesc, PatchGrid};
 /// Vertices and triangles of consecutive patches.
 ///
 /// A patch numbers the vertices at its corners, along its sides, and inside, in this order; in [`Layout::Shared`] it numbers only those that no patch before
-/// it has numbered, and it is the one that evaluates them.
+/// it has numbered, and it is the one that evaluates them. In [`Layout::ByRecord`] it numbers those inside alone.
 #[derive(Clone, Debug)]
 pub(crate) struct Chunk {
     /// The patches as the kernels see them.
@@ -32,7 +32,7 @@ impl Chunk {
     pub(crate) fn new(desc: &GridPlanDesc<'_>, patches: Range<u32>, numbering: &mut Numbering) -> Self {
         let records = &desc.surface.patches[patches.start as usize..patches.end as usize];
         let grids: Vec<PatchGrid> = records.par_iter().map(|record| desc.grid(record)).collect();
-        numbering.clear();
+        numbering.begin(desc);
         let numbered = patches.zip(records.iter().zip(&grids));
         let patches: Vec<GridPatch> =
             numbered.map(|(patch, (record, grid))| numbering.number(desc, patch, record, grid)).collect();
@@ -70,8 +70,11 @@ impl Numbering {
         }
     }
 
-    fn clear(&mut self) {
-        self.next = 0;
+    /// Forgets the last chunk.
+    fn begin(&mut self, desc: &GridPlanDesc<'_>) {
+        let by_record = |id| desc.first_by_record(desc.rates.rate(id).segments())[1];
+        let numbered = desc.rates.uniform_rate().filter(|_| desc.layout == Layout::ByRecord);
+        self.next = numbered.map_or(0, by_record);
         self.vertices.drain(..).for_each(|record| self.of_vertex[record as usize] = NONE);
         self.edges.drain(..).for_each(|record| self.of_edge[record as usize] = NONE);
     }
@@ -84,8 +87,21 @@ impl Numbering {
 
     /// Numbers the vertices of the next patch.
     fn number(&mut self, desc: &GridPlanDesc<'_>, patch: u32, record: &PatchRecord, grid: &PatchGrid) -> GridPatch {
-        let shared = desc.layout == Layout::Shared;
         let mut numbered = grid.record(patch);
+        if desc.layout == Layout::ByRecord {
+            for (k, &segments) in grid.pattern.sides().iter().enumerate() {
+                numbered.corner_vertex[k] = record.vertex[k];
+                numbered.side_vertex[k] = desc.first_by_record(segments)[0] + (segments - 1) * (record.edge[k] / 2);
+            }
+        } else {
+            self.number_border(desc.layout == Layout::Shared, record, grid, &mut numbered);
+        }
+        numbered.first_inner = self.take(grid.pattern.inner_count());
+        numbered
+    }
+
+    /// Numbers the vertices on the border of the next patch that are its own or, if they are shared, that no other has numbered.
+    fn number_border(&mut self, shared: bool, record: &PatchRecord, grid: &PatchGrid, numbered: &mut GridPatch) {
         for (k, &segments) in grid.pattern.sides().iter().enumerate() {
             let corner = if shared { self.of_vertex[record.vertex[k] as usize] } else { NONE };
             numbered.corner_vertex[k] = corner;
@@ -105,8 +121,6 @@ impl Numbering {
                 self.edges.push(edge as u32);
             }
         }
-        numbered.first_inner = self.take(grid.pattern.inner_count());
-        numbered
     }
 }
 

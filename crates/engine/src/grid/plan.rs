@@ -15,6 +15,9 @@ use crate::grid::{GridRates, Pattern};
 pub(crate) enum Layout {
     /// Vertex and edge records: one vertex for all patches of a chunk that meet there, so triangles close by index.
     Shared,
+    /// The same, numbered as the records are: those of vertices, then those along each edge, in the record's direction. For edges that are all divided alike, and
+    /// all patches in one chunk; then whoever makes a record knows where its vertices belong.
+    ByRecord,
     /// Each patch its own, with its own (u,v); the same bits of position and normal, being read from the same records.
     Own,
 }
@@ -40,6 +43,10 @@ pub(crate) struct GridPlan<'a> {
 
 impl<'a> GridPlan<'a> {
     pub(crate) fn new(desc: GridPlanDesc<'a>) -> Self {
+        if desc.layout == Layout::ByRecord {
+            let patches = desc.surface.patches.len() as u32;
+            return Self { desc, chunks: std::iter::once(0..patches).collect() };
+        }
         let counts: Vec<u32> =
             desc.surface.patches.par_iter().map(|record| desc.grid(record).pattern.vertex_count()).collect();
         let (mut chunks, mut first, mut room) = (Vec::new(), 0, desc.max_vertices);
@@ -67,6 +74,21 @@ impl<'a> GridPlan<'a> {
 }
 
 impl GridPlanDesc<'_> {
+    /// Numbers of the first vertex along an edge and of the first inside a patch, if vertices are numbered by records.
+    pub(crate) fn first_by_record(&self, segments: u32) -> [u32; 2] {
+        let vertices = self.surface.vertex_records.count() as u32;
+        [vertices, vertices + (segments - 1) * self.surface.edge_record_count() as u32]
+    }
+
+    /// How many vertices there are if they are numbered by records; `None` if edges are not all divided alike.
+    pub(crate) fn count_by_record(&self) -> Option<u64> {
+        let segments = self.rates.rate(self.rates.uniform_rate()?).segments();
+        let (vertices, edges) = (self.surface.vertex_records.count(), self.surface.edge_record_count());
+        let inside = |record| u64::from(self.grid(record).pattern.inner_count());
+        let inside: u64 = self.surface.patches.par_iter().map(inside).sum();
+        Some(vertices as u64 + u64::from(segments - 1) * edges as u64 + inside)
+    }
+
     /// How a patch is divided: inside as finely as the finer of two opposite sides, or as the finest of three.
     pub(crate) fn grid(&self, record: &PatchRecord) -> PatchGrid {
         if record.sides() == 3 { self.triangle(record) } else { self.quad(record) }

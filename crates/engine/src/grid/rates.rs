@@ -78,6 +78,14 @@ impl GridRates {
         }
     }
 
+    /// The rate of all edges, if they have the same.
+    pub(crate) fn uniform_rate(&self) -> Option<RateId> {
+        match &self.of_edges {
+            OfEdges::All(id) => Some(*id),
+            OfEdges::Each(_) => None,
+        }
+    }
+
     pub(crate) fn rate(&self, id: RateId) -> Rate {
         self.rates[usize::from(id.0)]
     }

@@ -71,8 +71,7 @@ impl Scene {
             let mut recording = Recording::new();
             recording.measure(measure);
             if moves {
-                surface.record_update(&mut recording)?;
-                drawing.record(&mut recording);
+                drawing.record_update(&mut recording)?;
             }
             recording.render(targets.pass(drawing.draws().to_vec(), Some(BACKGROUND)));
             Ok(recording)
