@@ -6,15 +6,16 @@ use osculate_subdiv::{PatchForm, PatchKind, PatchList};
 /// Which patches the tessellator leaves out: of which nothing is seen in a picture. The tests err on the side of drawing, and what they leave out covers
 /// no sample, so that a picture has the same bits with them as without; but for [`Self::back`], which is to be chosen for closed surfaces seen from outside.
 ///
-/// They look at the hull of a patch's control points in the control stage (`shaders/include/culling.glsl`); stored patches of coefficients are always
-/// drawn, and so is everything by the compute evaluator.
+/// Patches are told by the hull of their control points in the control stage (`shaders/include/culling.glsl`); stored patches of coefficients are always
+/// tessellated, and the compute evaluator evaluates everything. Triangles that show their backs are left out whoever made them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub struct Culling {
     /// Patches beyond a plane of the view.
     pub frustum: bool,
     /// Patches that fall between the places where samples can lie.
     pub small: bool,
-    /// Regular patches that show their back from everywhere on them, by a cone of their normals.
+    /// Triangles that show their back, and before they are made those of regular patches that show it from everywhere on them, by a cone of their normals. Fragment
+    /// shaders of [`Material`](crate::Material)s are asked for triangles as their pipelines say.
     pub back: bool,
 }
 

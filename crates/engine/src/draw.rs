@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use bytemuck::bytes_of;
 use osculate_gpu::{
-    Bindings, Blend, Compare, DepthBias, DepthState, Draw, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode, Shader,
-    Tessellation as Stages, Topology,
+    Bindings, Blend, Compare, Cull, DepthBias, DepthState, Draw, GraphicsPipeline, GraphicsPipelineDesc, PolygonMode,
+    Shader, Tessellation as Stages, Topology,
 };
 use osculate_shaders::{constant, layout::PatchPush};
 use osculate_subdiv::{PatchForm, PatchKind, PatchList};
@@ -17,11 +17,19 @@ use crate::material::{Inner as MaterialInner, MaterialId};
 use crate::render::Seen;
 use crate::{Engine, EngineError, Factors, Shade, Spacing, Surface, Target, Tessellation};
 
+/// Which sides of triangles are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub(crate) enum Sides {
+    Both,
+    /// Those that are seen of a closed surface from outside.
+    Front,
+}
+
 /// What becomes of tessellated patches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Output {
     /// Filled triangles in a shade.
-    Fill(Target, Shade),
+    Fill(Target, Shade, Sides),
     /// The edges of the triangles.
     Lines(Target),
     /// Filled triangles in a material, whose vertices hold what those of the shade do.
@@ -34,7 +42,7 @@ impl Output {
     /// Whose vertices it takes from the compute evaluator.
     pub(crate) fn layout(self) -> Layout {
         match self {
-            Self::Fill(_, shade) | Self::Material(_, shade) => shade.layout(),
+            Self::Fill(_, shade, _) | Self::Material(_, shade) => shade.layout(),
             Self::Lines(_) | Self::Capture => Layout::Own,
         }
     }
@@ -42,7 +50,7 @@ impl Output {
     /// What its fragments look at.
     fn seen(self) -> Seen {
         match self {
-            Self::Fill(_, shade) => shade.seen(),
+            Self::Fill(_, shade, _) => shade.seen(),
             Self::Lines(_) | Self::Material(..) | Self::Capture => Seen::Patch,
         }
     }
@@ -50,7 +58,7 @@ impl Output {
     /// The `SHADE_*` constant that shaders are specialized for.
     fn shade(self) -> u32 {
         match self {
-            Self::Fill(_, shade) | Self::Material(_, shade) => shade.constant(),
+            Self::Fill(_, shade, _) | Self::Material(_, shade) => shade.constant(),
             Self::Lines(_) => constant::SHADE_WIREFRAME,
             Self::Capture => constant::SHADE_NONE,
         }
@@ -185,7 +193,8 @@ fn patches_name(kind: PatchKind, division: Division, output: Output) -> String {
 fn output_name(output: Output) -> String {
     let target = |Target { color, samples }| format!("{color:?} x{samples}");
     match output {
-        Output::Fill(to, shade) => format!("fill {} {}", shade.name(), target(to)),
+        Output::Fill(to, shade, Sides::Both) => format!("fill {} {}", shade.name(), target(to)),
+        Output::Fill(to, shade, Sides::Front) => format!("fill fronts {} {}", shade.name(), target(to)),
         Output::Lines(to) => format!("lines {}", target(to)),
         Output::Material(..) => "material".to_owned(),
         Output::Capture => "capture".to_owned(),
@@ -212,7 +221,7 @@ fn mapped_name(mapped: bool) -> &'static str {
 
 fn fragment(engine: &Engine, output: Output, mapped: bool) -> Result<Option<Shader>, EngineError> {
     match output {
-        Output::Fill(_, shade) => {
+        Output::Fill(_, shade, _) => {
             Ok(Some(engine.shader(&variant("shade/surface.frag", &[shade.seen().word(), mapped_word(mapped)]))?))
         }
         Output::Lines(_) => Ok(Some(engine.shader("shade/wire.frag")?)),
@@ -254,7 +263,10 @@ fn with_output<'a>(
         ..desc
     };
     match output {
-        Output::Fill(target, _) => drawn(target, PolygonMode::Fill, DepthState::default()),
+        Output::Fill(target, _, sides) => {
+            let cull = if sides == Sides::Front { Cull::Back } else { Cull::None };
+            GraphicsPipelineDesc { cull, ..drawn(target, PolygonMode::Fill, DepthState::default()) }
+        }
         Output::Lines(target) => {
             // A line covers pixels whose centres lie up to half a pixel beside the edge, where the triangle may be that much nearer.
             let bias = Some(DepthBias { constant: -16.0, slope: -1.0 });
@@ -355,7 +367,7 @@ mod tests {
         let target = Target { color: Format::Rgba8Srgb, samples: 4 };
         let stam = PatchKind::Extraordinary { form: PatchForm::Stam, valence: 7 };
         assert_eq!(
-            patches_name(stam, plain(Spacing::Equal), Output::Fill(target, Shade::Zebra)),
+            patches_name(stam, plain(Spacing::Equal), Output::Fill(target, Shade::Zebra, Sides::Both)),
             "stam valence 7, equal, fill zebra Rgba8Srgb x4"
         );
         let stored = PatchKind::Stored { form: PatchForm::Gregory };

@@ -3,7 +3,7 @@
 use osculate_gpu::{Bindings, Buffer, Draw};
 use osculate_shaders::binding;
 
-use crate::draw::{Division, Output, PipelineKey, runs};
+use crate::draw::{Division, Output, PipelineKey, Sides, runs};
 use crate::frame::{CullView, FrameDesc};
 use crate::grid::Layout;
 use crate::pipelines::NO_KERNELS;
@@ -71,7 +71,8 @@ impl Look<'_> {
 
     /// What becomes of the triangles first.
     pub(crate) fn output(&self) -> Output {
-        Output::Fill(self.target, self.shade)
+        let sides = if self.culling.back { Sides::Front } else { Sides::Both };
+        Output::Fill(self.target, self.shade, sides)
     }
 
     /// What becomes of the triangles, in order.

@@ -5,11 +5,11 @@ use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
 use crate::input::InputArgs;
 use crate::options::{
-    AnimationArgs, CameraArgs, Colour, DisplaceArgs, Maps, NumberedPath, Output, SchemeName, TessellationArgs,
+    AnimationArgs, CameraArgs, Colour, CullArg, DisplaceArgs, Maps, NumberedPath, Output, SchemeName, TessellationArgs,
 };
 use crate::progress::Progress;
 use clap::{Args, ValueEnum};
-use osculate::{Culling, RenderDesc, Scheme, Shade};
+use osculate::{RenderDesc, Scheme, Shade};
 use osculate_cage::{Bounds, Cage};
 use std::path::PathBuf;
 
@@ -85,27 +85,6 @@ struct LookArgs {
     /// Colour behind the surface: #RRGGBB, #RRGGBBAA, black, white or transparent. Default: dark grey.
     #[arg(long, value_name = "COLOUR")]
     background: Option<Colour>,
-}
-
-/// Names of what is left out.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum CullArg {
-    /// None.
-    None,
-    /// Those beyond the picture, and those that fall between its samples.
-    Unseen,
-    /// Those that show their backs too: for closed surfaces, seen from outside.
-    Backs,
-}
-
-impl From<CullArg> for Culling {
-    fn from(arg: CullArg) -> Self {
-        match arg {
-            CullArg::None => Self::NONE,
-            CullArg::Unseen => Self::UNSEEN,
-            CullArg::Backs => Self::ALL,
-        }
-    }
 }
 
 /// Names of the shades.

@@ -3,6 +3,7 @@
 mod animation;
 mod camera;
 mod colour;
+mod cull;
 mod level;
 mod maps;
 mod numbered;
@@ -15,6 +16,7 @@ mod tessellation;
 pub(crate) use animation::{AnimationArgs, Film, Moment, Motion};
 pub(crate) use camera::CameraArgs;
 pub(crate) use colour::Colour;
+pub(crate) use cull::CullArg;
 pub(crate) use level::{Level, Pixels};
 pub(crate) use maps::{DisplaceArgs, Maps, uv_origin};
 pub(crate) use numbered::NumberedPath;

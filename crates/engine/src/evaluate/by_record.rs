@@ -101,11 +101,12 @@ mod tests {
     use osculate_gpu::{Format, Memory};
 
     use super::*;
+    use crate::draw::Sides;
     use crate::{
         Cage, Device, DeviceDesc, Engine, EngineDesc, Scheme, Shade, Spacing, SurfaceDesc, Target, Tessellation,
     };
 
-    const OUTPUT: Output = Output::Fill(Target { color: Format::Rgba8Unorm, samples: 1 }, Shade::Lit);
+    const OUTPUT: Output = Output::Fill(Target { color: Format::Rgba8Unorm, samples: 1 }, Shade::Lit, Sides::Both);
 
     fn device() -> Device {
         let select = std::env::var("OSCULATE_DEVICE").ok();
@@ -200,7 +201,7 @@ mod tests {
         assert!(fits(&surface, &uniform, OUTPUT));
         let rates = GridRates::per_edge(&vec![4.0; surface.plan().edge_record_count()], Spacing::Equal);
         assert!(!fits(&surface, &rates, OUTPUT));
-        let curvature = Output::Fill(Target { color: Format::Rgba8Unorm, samples: 1 }, Shade::Curvature);
+        let curvature = Output::Fill(Target { color: Format::Rgba8Unorm, samples: 1 }, Shade::Curvature, Sides::Both);
         assert!(!fits(&surface, &uniform, curvature));
         let desc = EngineDesc { grid_vertices: Some(1000), ..EngineDesc::default() };
         let small = self::surface(&Engine::with(engine.device().clone(), desc), &cage, Scheme::Gregory2);

@@ -30,8 +30,8 @@ impl Measured {
     /// What the fragments of an output look at.
     pub(crate) fn of(output: Output) -> Self {
         match output {
-            Output::Fill(_, shade) if shade.layout() == Layout::Shared => Self::Nothing,
-            Output::Fill(_, shade) | Output::Material(_, shade) => Self::of_patch(shade),
+            Output::Fill(_, shade, _) if shade.layout() == Layout::Shared => Self::Nothing,
+            Output::Fill(_, shade, _) | Output::Material(_, shade) => Self::of_patch(shade),
             Output::Lines(_) => Self::Width,
             Output::Capture => Self::Parameters,
         }

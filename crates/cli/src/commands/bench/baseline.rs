@@ -77,8 +77,8 @@ fn name(row: &Row) -> String {
 
 fn is_same(a: &Row, b: &Row) -> bool {
     let key = |row: &Row| {
-        let Row { cage, scheme, level, evaluator, animated, size, samples, .. } = row.clone();
-        (cage, scheme, level.to_bits(), evaluator, animated, size, samples)
+        let Row { cage, scheme, level, evaluator, animated, culling, size, samples, .. } = row.clone();
+        (cage, scheme, level.to_bits(), evaluator, animated, culling, size, samples)
     };
     key(a) == key(b)
 }

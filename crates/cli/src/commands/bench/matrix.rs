@@ -1,6 +1,6 @@
 //! What is measured: cages x schemes x levels x evaluators, in groups that are measured in turn.
 
-use crate::options::DrawEvaluator;
+use crate::options::{CullArg, DrawEvaluator};
 use osculate::{Evaluator, Factors, Scheme, Spacing, Tessellation};
 
 /// One thing to measure.
@@ -14,6 +14,8 @@ pub(super) struct Configuration {
     pub(super) evaluator: Evaluator,
     /// Whether the cage moves in every frame.
     pub(super) animated: bool,
+    /// What is left out.
+    pub(super) culling: CullArg,
     /// Width and height of the picture.
     pub(super) size: [u32; 2],
     pub(super) samples: u32,

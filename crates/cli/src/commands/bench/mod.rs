@@ -13,7 +13,7 @@ mod timing;
 use crate::args::GlobalArgs;
 use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
-use crate::options::{DrawEvaluator, Level, Output, SchemeChoice, SchemeName, Size, check_place};
+use crate::options::{CullArg, DrawEvaluator, Level, Output, SchemeChoice, SchemeName, Size, check_place};
 use crate::postponement::Interruption;
 use crate::progress::Progress;
 use cages::BenchCage;
@@ -59,6 +59,10 @@ pub(crate) struct BenchArgs {
     /// Draw the same triangles from vertices that stay, too: the limit of any evaluator. Adds the ratio to it to every object.
     #[arg(long)]
     limit: bool,
+
+    /// What to leave out, of the limit too: for pictures that stay the same.
+    #[arg(long, value_name = "WHAT", value_enum, default_value = "none")]
+    cull: CullArg,
 
     /// Size of the picture in pixels.
     #[arg(long, value_name = "WxH", default_value = "512x512", allow_hyphen_values = true)]
@@ -177,6 +181,7 @@ impl BenchArgs {
             level: levels[0],
             evaluator: evaluators[0].into(),
             animated: self.animate,
+            culling: self.cull,
             size: [self.size.width, self.size.height],
             samples: self.samples,
         };

@@ -21,6 +21,9 @@ pub(super) struct Row {
     pub(super) level: f32,
     pub(super) evaluator: String,
     pub(super) animated: bool,
+    /// What is left out.
+    #[serde(default = "nothing")]
+    pub(super) culling: String,
     /// Width x height.
     pub(super) size: String,
     pub(super) samples: u32,
@@ -138,16 +141,22 @@ fn json_lines<T: Serialize>(file: &Path, objects: &[T]) -> Result<(), Failure> {
     whole_file::write(file, write).map_err(|error| Failure::output(file, error))
 }
 
+/// What rows leave out that do not say.
+fn nothing() -> String {
+    "none".to_owned()
+}
+
 /// Columns of the CSV file and what goes into them.
 type Column = (&'static str, fn(&Row) -> String);
 
-const COLUMNS: [Column; 25] = [
+const COLUMNS: [Column; 26] = [
     ("cage", |row| row.cage.clone()),
     ("faces", |row| row.faces.to_string()),
     ("scheme", |row| row.scheme.clone()),
     ("level", |row| row.level.to_string()),
     ("evaluator", |row| row.evaluator.clone()),
     ("animated", |row| row.animated.to_string()),
+    ("culling", |row| row.culling.clone()),
     ("size", |row| row.size.clone()),
     ("samples", |row| row.samples.to_string()),
     ("steps", |row| row.steps.to_string()),
@@ -227,6 +236,7 @@ pub(super) mod tests {
             level,
             evaluator: "tessellator".to_owned(),
             animated: false,
+            culling: nothing(),
             size: "64x64".to_owned(),
             samples: 1,
             steps: 1,

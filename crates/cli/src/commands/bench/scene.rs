@@ -12,7 +12,7 @@ use crate::progress::Progress;
 use glam::DVec3;
 use osculate::gpu::{Measure, PassStatistics, Prepared, Recording};
 use osculate::{
-    Camera, Culling, Drawing, DrawingDesc, Engine, EngineError, Evaluator, Shade, Surface, SurfaceDesc, Target, Targets,
+    Camera, Drawing, DrawingDesc, Engine, EngineError, Evaluator, Shade, Surface, SurfaceDesc, Target, Targets,
 };
 use osculate_cage::Cage;
 use std::time::Instant;
@@ -57,7 +57,7 @@ impl Scene {
             shade: Shade::Peer,
             cage: false,
             target: targets.target(),
-            culling: Culling::NONE,
+            culling: configuration.culling.into(),
             camera: Camera::fit(input.cage.bounds()),
             size: configuration.size,
         };
@@ -232,6 +232,7 @@ impl Named<'_> {
             level: configuration.level,
             evaluator: super::matrix::evaluator_name(configuration.evaluator).to_owned(),
             animated: configuration.animated,
+            culling: configuration.culling.name().to_owned(),
             size: format!("{}x{}", configuration.size[0], configuration.size[1]),
             samples: configuration.samples,
             steps: plan.steps(),
