@@ -20,6 +20,7 @@ mod limits;
 mod listed;
 mod obj;
 mod off;
+mod part;
 mod ply;
 mod progress;
 #[cfg(test)]
@@ -47,6 +48,7 @@ pub use limits::{LimitError, Limits};
 pub use listed::Listed;
 pub use obj::{ObjError, read_obj, write_obj};
 pub use off::{OffError, read_off};
+pub use part::{CagePart, divide};
 pub use ply::{PlyError, read_ply};
 pub use progress::{ReadObserver, ReadProgress, ReadStage};
 pub use read::{FileFormat, ReadDesc};

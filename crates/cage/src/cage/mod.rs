@@ -119,18 +119,18 @@ impl CageDesc {
 /// vertex, every vertex has a face, and all coordinates are finite.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cage {
-    positions: Vec<DVec3>,
-    source_vertices: Vec<u32>,
-    source_faces: Vec<u32>,
-    topology: Topology,
-    uv: Option<FaceVarying>,
-    tags: Tags,
-    face_sets: Vec<FaceSet>,
-    appearance: Option<Appearance>,
-    rig: Option<Box<Rig>>,
-    polygons: Option<PolygonReport>,
-    warnings: Vec<Warning>,
-    bounds: Bounds,
+    pub(crate) positions: Vec<DVec3>,
+    pub(crate) source_vertices: Vec<u32>,
+    pub(crate) source_faces: Vec<u32>,
+    pub(crate) topology: Topology,
+    pub(crate) uv: Option<FaceVarying>,
+    pub(crate) tags: Tags,
+    pub(crate) face_sets: Vec<FaceSet>,
+    pub(crate) appearance: Option<Appearance>,
+    pub(crate) rig: Option<Box<Rig>>,
+    pub(crate) polygons: Option<PolygonReport>,
+    pub(crate) warnings: Vec<Warning>,
+    pub(crate) bounds: Bounds,
 }
 
 impl Cage {

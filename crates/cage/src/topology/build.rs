@@ -251,7 +251,7 @@ fn diagnose_edges(topology: &Topology, buckets: &Buckets) -> TopologyError {
 }
 
 /// Numbers edges by first occurrence; twins must be set.
-fn number_edges(topology: &mut Topology, watch: &Watch) -> Result<(), Cancelled> {
+pub(super) fn number_edges(topology: &mut Topology, watch: &Watch) -> Result<(), Cancelled> {
     // NONE is the highest index: a half-edge without twin is the first of its edge.
     let mut edges = Vec::with_capacity(topology.half_edge_count());
     let mut firsts = Vec::with_capacity(topology.half_edge_count() / 2 + 1);
@@ -270,7 +270,7 @@ fn number_edges(topology: &mut Topology, watch: &Watch) -> Result<(), Cancelled>
 }
 
 /// Chooses the half-edge of each vertex and counts its faces.
-fn find_vertex_half_edges(topology: &mut Topology, vertex_count: usize, watch: &Watch) -> Result<(), Cancelled> {
+pub(super) fn find_vertex_half_edges(topology: &mut Topology, vertex_count: usize, watch: &Watch) -> Result<(), Cancelled> {
     let mut starts = vec![NONE; vertex_count];
     let mut valences = vec![0_u32; vertex_count];
     for h in (0..topology.half_edge_count() as u32).rev() {

@@ -6,6 +6,7 @@
 
 mod build;
 mod error;
+mod restrict;
 mod ring;
 
 use std::ops::Range;
