@@ -3,10 +3,20 @@
 use osculate_gpu::{Buffer, BufferUsage, Draw, Recording};
 
 use crate::alpha::divide_alpha_out;
+use crate::draw::Output;
 use crate::evaluate::{GridChunk, Grids};
 use crate::frame::FrameDesc;
 use crate::look::Look;
 use crate::{Engine, EngineError, Picture, RenderDesc, Surface, Target, Targets};
+
+/// What is drawn of all surfaces before the next is.
+#[derive(Clone, Copy)]
+pub(crate) enum Layer {
+    /// The patches.
+    Patches(Output),
+    /// The cage, by the number of its frame: behind the surface too, then in sight.
+    Cage(usize),
+}
 
 /// A picture in the making.
 pub(crate) struct Canvas<'a> {
@@ -51,6 +61,32 @@ impl<'a> Canvas<'a> {
         self.add_cage(surface)
     }
 
+    /// What is drawn one upon the other, where surfaces are drawn one after the other.
+    pub(crate) fn layers(&self) -> Vec<Layer> {
+        let cage = if self.desc.cage { 0..2 } else { 0..0 };
+        self.look().outputs().map(Layer::Patches).chain(cage.map(Layer::Cage)).collect()
+    }
+
+    /// Draws one layer of a surface, and waits until that is done, so that the surface may go.
+    pub(crate) fn add_layer(&mut self, surface: &Surface, layer: Layer) -> Result<(), EngineError> {
+        match layer {
+            Layer::Patches(output) if self.desc.tessellation.renders_in_compute(self.engine.device()) => {
+                return self.add_grids_of(surface, &[output]);
+            }
+            Layer::Patches(output) => {
+                let frame = self.frame(surface)?;
+                self.draws.extend(self.look().patches_of(surface, &frame, output)?);
+            }
+            Layer::Cage(number) => {
+                let frames: Vec<Buffer> =
+                    self.look().cage_frames(surface).map(|frame| self.upload(frame)).collect::<Result<_, _>>()?;
+                let draws = self.look().cage_draws(surface, &frames)?;
+                self.draws.extend(draws.into_iter().nth(number));
+            }
+        }
+        self.flush(Recording::new())
+    }
+
     /// The frame of a surface in a buffer.
     pub(crate) fn frame(&self, surface: &Surface) -> Result<Buffer, EngineError> {
         self.upload(self.look().frame(surface))
@@ -62,6 +98,11 @@ impl<'a> Canvas<'a> {
 
     /// Evaluates and draws chunk after chunk, so that only one is in memory.
     fn add_grids(&mut self, surface: &Surface) -> Result<(), EngineError> {
+        let outputs: Vec<Output> = self.look().outputs().collect();
+        self.add_grids_of(surface, &outputs)
+    }
+
+    fn add_grids_of(&mut self, surface: &Surface, outputs: &[Output]) -> Result<(), EngineError> {
         let rates = surface.grid_rates(&self.desc.tessellation)?;
         let grids = Grids::drawn(surface, &rates, self.look().output())?;
         let frame = self.frame(surface)?;
@@ -69,7 +110,7 @@ impl<'a> Canvas<'a> {
             let chunk = chunk?;
             let mut recording = Recording::new();
             grids.record(&chunk, &frame, &mut recording)?;
-            self.add_chunk(&grids, &chunk, &frame, recording)?;
+            self.add_chunk_of(&grids, &chunk, &frame, recording, outputs)?;
         }
         Ok(())
     }
@@ -82,8 +123,20 @@ impl<'a> Canvas<'a> {
         frame: &Buffer,
         recording: Recording,
     ) -> Result<(), EngineError> {
+        let outputs: Vec<Output> = self.look().outputs().collect();
+        self.add_chunk_of(grids, chunk, frame, recording, &outputs)
+    }
+
+    fn add_chunk_of(
+        &mut self,
+        grids: &Grids<'_>,
+        chunk: &GridChunk,
+        frame: &Buffer,
+        recording: Recording,
+        outputs: &[Output],
+    ) -> Result<(), EngineError> {
         let indices = self.engine.device().upload("grid indices", BufferUsage::INDEX, &chunk.indices)?;
-        for output in self.look().outputs() {
+        for &output in outputs {
             self.draws.push(grids.draw(chunk, &indices, frame, output)?);
         }
         self.flush(recording)

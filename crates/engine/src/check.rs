@@ -7,14 +7,16 @@
 mod shared;
 
 use std::collections::HashMap;
+use std::ops::AddAssign;
 
-use osculate_subdiv::SurfacePlan;
+use osculate_subdiv::{SurfacePlan, WholeNames};
 
 use crate::capture::hand_out;
 use crate::evaluate::Grids;
 use crate::grid::Layout;
 use crate::keys::{common_side, edge_parameter};
-use crate::{CapturedVertex, EngineError, Surface, Tessellation, VertexKey};
+use crate::parts::Seams;
+use crate::{CapturedVertex, EngineError, Surface, Tessellation, VertexKey, WholeKey};
 
 use shared::{Mesh, compare};
 
@@ -68,19 +70,12 @@ impl CheckReport {
 /// As [`Surface::capture`].
 pub fn check(surface: &Surface, tessellation: &Tessellation) -> Result<CheckReport, EngineError> {
     let mut proof = Proof::new(surface.plan());
-    if surface.captures_in_compute(tessellation) {
-        proof.add_grids(surface, tessellation)?;
-    } else {
-        surface.capture(tessellation, |vertices| {
-            proof.add(vertices);
-            Ok::<(), EngineError>(())
-        })?;
-    }
+    proof.add_surface(surface, tessellation)?;
     Ok(proof.finish(surface.boundary_edge_count()))
 }
 
 /// Bits of a position or a normal.
-type Bits = [u32; 3];
+pub(crate) type Bits = [u32; 3];
 
 fn bits(v: [f32; 3]) -> Bits {
     v.map(f32::to_bits)
@@ -89,7 +84,8 @@ fn bits(v: [f32; 3]) -> Bits {
 /// A directed triangle edge on the border of a patch: edge record and the bits of the parameter at either end.
 type BorderEdge = (u32, u32, u32);
 
-struct Proof<'a> {
+/// The proof of one surface.
+pub(crate) struct Proof<'a> {
     plan: &'a SurfacePlan,
     report: CheckReport,
     /// First position and normal seen of each shared key.
@@ -97,19 +93,33 @@ struct Proof<'a> {
     border: HashMap<BorderEdge, u32>,
     /// Directed edges between positions, and whether the edge lies on the boundary of the surface.
     welded: HashMap<(Bits, Bits), (u32, bool)>,
+    /// Whether nothing more is to come of each patch.
     drawn: Vec<bool>,
 }
 
 impl<'a> Proof<'a> {
-    fn new(plan: &'a SurfacePlan) -> Self {
+    pub(crate) fn new(plan: &'a SurfacePlan) -> Self {
+        let mut drawn = vec![true; plan.patches.len()];
+        plan.drawn().for_each(|run| drawn[run.start as usize..run.end as usize].fill(false));
         Self {
             plan,
             report: CheckReport::default(),
             shared: HashMap::new(),
             border: HashMap::new(),
             welded: HashMap::new(),
-            drawn: vec![false; plan.patches.len()],
+            drawn,
         }
+    }
+
+    /// Takes all triangles of a surface.
+    pub(crate) fn add_surface(&mut self, surface: &Surface, tessellation: &Tessellation) -> Result<(), EngineError> {
+        if surface.captures_in_compute(tessellation) {
+            return self.add_grids(surface, tessellation);
+        }
+        surface.capture(tessellation, |vertices| {
+            self.add(vertices);
+            Ok(())
+        })
     }
 
     /// Takes the grids of the compute evaluator in both layouts.
@@ -224,26 +234,86 @@ impl<'a> Proof<'a> {
 
     /// `boundary` is the number of boundary edges that the cage says there are: the plan must not call an edge boundary because its two patches do not
     /// find each other.
-    fn finish(mut self, boundary: usize) -> CheckReport {
-        let planned = self.plan.boundary_edges.iter().filter(|&&boundary| boundary).count();
-        self.report.open += planned.abs_diff(boundary) as u64;
+    fn finish(self, boundary: usize) -> CheckReport {
+        self.end(boundary, None)
+    }
+
+    /// The same for a part of a cage, whose records have `names`: what it shares with other parts is compared with what is known of them, and left to be closed
+    /// when all parts are there.
+    pub(crate) fn finish_part(self, boundary: usize, names: &WholeNames, seams: &mut Seams) -> CheckReport {
+        self.end(boundary, Some((names, seams)))
+    }
+
+    fn end(mut self, boundary: usize, mut seams: Option<(&WholeNames, &mut Seams)>) -> CheckReport {
+        self.report.open += self.drawn_boundary_edges().abs_diff(boundary) as u64;
         self.report.wrong_patches += self.drawn.iter().filter(|&&drawn| !drawn).count() as u64;
         for (&(edge, a, b), &count) in &self.border {
             self.report.over_shared += u64::from(count - 1);
-            let partner = self.border.contains_key(&(edge, b, a));
-            self.report.open += u64::from(!partner && !self.plan.boundary_edges[edge as usize]);
+            let closed = self.border.contains_key(&(edge, b, a)) || self.plan.boundary_edges[edge as usize];
+            match &mut seams {
+                Some((names, seams)) if !closed && names.shared_edges[edge as usize] => {
+                    *seams.border.entry((names.edges[edge as usize], a, b)).or_default() += 1;
+                }
+                _ => self.report.open += u64::from(!closed),
+            }
         }
         for (&(a, b), &(count, boundary)) in &self.welded {
             // An edge shorter than the spacing of floats welds to a point.
             if a == b {
                 continue;
             }
-            let back = self.welded.get(&(b, a)).map_or(0, |other| other.0);
+            let closed = boundary || self.welded.contains_key(&(b, a));
             self.report.weld.over_shared += u64::from(count > 1);
-            self.report.weld.open += u64::from(back == 0 && !boundary);
+            match &mut seams {
+                Some((_, seams)) if !closed => *seams.welded.entry((a, b)).or_default() += 1,
+                _ => self.report.weld.open += u64::from(!closed),
+            }
+        }
+        if let Some((names, seams)) = seams {
+            self.meet(names, seams);
         }
         self.report.open += self.report.split_positions;
         self.report
+    }
+
+    /// Compares vertices that other parts have too with theirs.
+    fn meet(&mut self, names: &WholeNames, seams: &mut Seams) {
+        for (&key, &(position, normal)) in &self.shared {
+            let name = match key {
+                VertexKey::Vertex(v) if names.shared_vertices[v as usize] => {
+                    WholeKey::Vertex(names.vertices[v as usize])
+                }
+                VertexKey::Edge(e, t) if names.shared_edges[e as usize] => WholeKey::Edge(names.edges[e as usize], t),
+                _ => continue,
+            };
+            let first = *seams.shared.entry(name).or_insert((position, normal));
+            self.report.split_positions += u64::from(first.0 != position);
+            self.report.split_normals += u64::from(first.1 != normal);
+        }
+    }
+
+    /// Edge records on the boundary that patches to be drawn have.
+    fn drawn_boundary_edges(&self) -> usize {
+        let mut boundary = self.plan.boundary_edges.clone();
+        let records = self.plan.drawn().flat_map(|run| &self.plan.patches[run.start as usize..run.end as usize]);
+        let edges = records.flat_map(|record| record.edge.into_iter().take(record.sides()));
+        edges.filter(|edge| std::mem::take(&mut boundary[(edge / 2) as usize])).count()
+    }
+}
+
+impl AddAssign for CheckReport {
+    /// The report of two surfaces.
+    fn add_assign(&mut self, other: Self) {
+        self.triangles += other.triangles;
+        self.open += other.open;
+        self.over_shared += other.over_shared;
+        self.split_positions += other.split_positions;
+        self.split_normals += other.split_normals;
+        self.inverted += other.inverted;
+        self.degenerate += other.degenerate;
+        self.wrong_patches += other.wrong_patches;
+        self.weld.open += other.weld.open;
+        self.weld.over_shared += other.weld.over_shared;
     }
 }
 

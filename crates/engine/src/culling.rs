@@ -82,7 +82,7 @@ mod tests {
 
     #[test]
     fn lists_without_overshoot_take_no_weights() {
-        let list = |kind| PatchList { kind, first_patch: 0, count: 1, first_index: 0, weights: 0 };
+        let list = |kind| PatchList { kind, first_patch: 0, count: 1, drawn: 1, first_index: 0, weights: 0 };
         let stam = PatchKind::Extraordinary { form: PatchForm::Stam, valence: 5 };
         for kind in [PatchKind::Regular, stam, PatchKind::Stored { form: PatchForm::Gregory }] {
             assert_eq!(overshoot(&list(kind), &[]), 0.0);

@@ -307,13 +307,13 @@ pub(crate) struct Run<'a> {
     pub(crate) count: u32,
 }
 
-/// All patches of a surface in order, in runs of at most `longest`.
+/// All patches of a surface that are drawn, in order, in runs of at most `longest`.
 pub(crate) fn runs(lists: &[PatchList], longest: u32) -> impl Iterator<Item = Run<'_>> {
     lists.iter().flat_map(move |list| {
-        (0..list.count).step_by(longest as usize).map(move |first| Run {
+        (0..list.drawn).step_by(longest as usize).map(move |first| Run {
             list,
             first,
-            count: longest.min(list.count - first),
+            count: longest.min(list.drawn - first),
         })
     })
 }
@@ -379,7 +379,14 @@ mod tests {
     #[test]
     fn runs_cover_every_patch_once() {
         let list =
-            |first_patch, count| PatchList { kind: PatchKind::Regular, first_patch, count, first_index: 0, weights: 0 };
+            |first_patch, count| PatchList {
+                kind: PatchKind::Regular,
+                first_patch,
+                count,
+                drawn: count,
+                first_index: 0,
+                weights: 0,
+            };
         let lists = [list(0, 31), list(31, 10)];
         let runs: Vec<(u32, u32, u32)> =
             runs(&lists, 15).map(|run| (run.list.first_patch, run.first, run.count)).collect();

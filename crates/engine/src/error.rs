@@ -15,7 +15,7 @@ pub enum EngineError {
     Gpu(#[from] GpuError),
     /// A table of the cage is larger than a shader can see on this device.
     #[error(
-        "the cage's {what} take {bytes} bytes; device {device:?} lets a shader see at most {limit}: use a smaller cage or another device"
+        "the cage's {what} take {bytes} bytes; device {device:?} lets a shader see at most {limit}: draw it in parts, or use a smaller cage or another device"
     )]
     TooLarge {
         /// The table.

@@ -118,12 +118,22 @@ impl Look<'_> {
 
     /// The draws of all patches by the tessellator.
     pub(crate) fn patches(&self, surface: &Surface, frame: &Buffer) -> Result<Vec<Draw>, EngineError> {
+        let draws: Vec<Vec<Draw>> =
+            self.outputs().map(|output| self.patches_of(surface, frame, output)).collect::<Result<_, _>>()?;
+        Ok(draws.into_iter().flatten().collect())
+    }
+
+    /// Those of one of the outputs.
+    pub(crate) fn patches_of(
+        &self,
+        surface: &Surface,
+        frame: &Buffer,
+        output: Output,
+    ) -> Result<Vec<Draw>, EngineError> {
         let bindings = surface.patch_bindings().with(binding::FRAME, frame);
         let longest = surface.engine().patches_per_draw(self.tessellation.max_segments()?);
-        let runs = || runs(&surface.plan().lists, longest);
         let division = self.division(surface);
-        let draw = |(output, run)| surface.draw(run, &bindings, division, output);
-        self.outputs().flat_map(|output| runs().map(move |run| (output, run))).map(draw).collect()
+        runs(&surface.plan().lists, longest).map(|run| surface.draw(run, &bindings, division, output)).collect()
     }
 
     /// The draws of the cage, given the buffers of [`Self::cage_frames`].

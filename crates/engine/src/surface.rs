@@ -46,10 +46,21 @@ impl Surface {
     /// If the cage is too large for 32-bit indices or for the device, no face is left to draw, or the device fails.
     pub fn new(engine: &Engine, cage: &Cage, desc: &SurfaceDesc) -> Result<Self, EngineError> {
         let plan = SurfacePlan::build(cage, &PlanDesc { boundary: desc.boundary, scheme: desc.scheme })?;
+        Self::from_plan(engine, cage, plan, |_| true)
+    }
+
+    /// The surface of a plan of a cage, of which only some faces are its own: what it draws of the cage's edges, each once, and where it may end, is what these
+    /// have.
+    pub(crate) fn from_plan(
+        engine: &Engine,
+        cage: &Cage,
+        plan: SurfacePlan,
+        is_own: impl Fn(u32) -> bool,
+    ) -> Result<Self, EngineError> {
         let topology = cage.topology();
-        let edges: Vec<[u32; 2]> =
-            topology.edge_half_edges().iter().map(|&h| [topology.origin(h), topology.target(h)]).collect();
-        let boundary_edge_count = boundary_edges(cage, plan.rule) << plan.steps();
+        let own = topology.edge_half_edges().iter().filter(|&&h| is_own(topology.face(h)));
+        let edges: Vec<[u32; 2]> = own.map(|&h| [topology.origin(h), topology.target(h)]).collect();
+        let boundary_edge_count = boundary_edges(cage, plan.rule, is_own) << plan.steps();
         let mut surface = Self {
             buffers: Arc::new(SurfaceBuffers::new(engine.device(), &plan, &edges)?),
             engine: engine.clone(),
@@ -328,9 +339,11 @@ impl Surface {
     }
 }
 
-/// Edges of the cage with a drawn face on one side only.
-fn boundary_edges(cage: &Cage, rule: BoundaryRule) -> usize {
+/// Edges of the cage with a drawn face on one side only, which is an own one.
+fn boundary_edges(cage: &Cage, rule: BoundaryRule, is_own: impl Fn(u32) -> bool) -> usize {
     let (topology, drawn) = (cage.topology(), cage.drawn_faces(rule));
     let is_drawn = |h: u32| h != osculate_cage::NONE && drawn[topology.face(h) as usize];
-    topology.edge_half_edges().iter().filter(|&&h| is_drawn(h) != is_drawn(topology.twin(h))).count()
+    let ends_at = |h: u32, other: u32| is_drawn(h) && is_own(topology.face(h)) && !is_drawn(other);
+    let ends = |&&h: &&u32| ends_at(h, topology.twin(h)) || ends_at(topology.twin(h), h);
+    topology.edge_half_edges().iter().filter(ends).count()
 }

@@ -87,6 +87,8 @@ pub struct Limits {
     pub uniform_buffer_alignment: u64,
     /// Most bytes in one memory allocation.
     pub max_memory_allocation: u64,
+    /// Bytes of the largest of the device's own memories; that of the machine where the device has none of its own.
+    pub device_memory: u64,
     /// Most bytes of push constants.
     pub max_push_constants: u32,
     /// Most buffers and images that one pipeline binds.
@@ -371,6 +373,7 @@ fn find_properties(
     let core = all.properties;
     let limits = Limits {
         max_memory_allocation: v11.max_memory_allocation_size,
+        device_memory: largest_heap(instance, raw),
         max_push_descriptors: push.max_push_descriptors,
         max_capture_buffer: feedback.max_transform_feedback_buffer_size,
         max_capture_stride: capture_stride(&feedback),
@@ -398,6 +401,14 @@ fn find_properties(
 fn capture_stride(feedback: &vk::PhysicalDeviceTransformFeedbackPropertiesEXT<'_>) -> u32 {
     let data = feedback.max_transform_feedback_buffer_data_size.min(feedback.max_transform_feedback_stream_data_size);
     feedback.max_transform_feedback_buffer_data_stride.min(data)
+}
+
+/// Bytes of the largest heap that is the device's own.
+fn largest_heap(instance: &ash::Instance, raw: vk::PhysicalDevice) -> u64 {
+    // SAFETY: `raw` comes from this instance.
+    let memory = unsafe { instance.get_physical_device_memory_properties(raw) };
+    let own = |heap: &&vk::MemoryHeap| heap.flags.contains(vk::MemoryHeapFlags::DEVICE_LOCAL);
+    memory.memory_heaps_as_slice().iter().filter(own).map(|heap| heap.size).max().unwrap_or(0)
 }
 
 /// The limits of Vulkan 1.0.

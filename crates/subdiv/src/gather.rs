@@ -81,7 +81,7 @@ impl Layout {
         let mut layout = Self { lists: Vec::new(), stored: Vec::new(), projections: Projections::default(), size: 0 };
         for &(kind, ref patches) in &order.runs {
             let (first_patch, count, first_index) = (patches.start, patches.len() as u32, layout.size);
-            let mut list = PatchList { kind, first_patch, count, first_index, weights: 0 };
+            let mut list = PatchList { kind, first_patch, count, drawn: count, first_index, weights: 0 };
             match kind {
                 PatchKind::Regular => layout.size += 16 * count,
                 PatchKind::Extraordinary { form, valence } => {

@@ -116,6 +116,8 @@ pub struct PatchList {
     pub first_patch: u32,
     /// Number of patches.
     pub count: u32,
+    /// Number of those that are drawn, which come first: all, but in a part of a cage those of its own faces.
+    pub drawn: u32,
     /// First index of their nets. The nets of a stored list differ in length.
     pub first_index: u32,
     /// First weight of their change of basis, for extraordinary lists.

@@ -2,12 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use osculate_cage::{BoundaryRule, Cage};
+use osculate_cage::{BoundaryRule, Cage, CagePart};
 use rayon::prelude::*;
 
 use crate::gather::PatchNets;
 use crate::lists::PatchOrder;
 use crate::nets::FinalMesh;
+use crate::part::FaceSizes;
 use crate::patches::{LIST_VALENCES, Tag};
 use crate::records::{RecordSources, assign};
 use crate::weights::WeightTable;
@@ -82,25 +83,58 @@ impl SurfacePlan {
     pub fn build(cage: &Cage, desc: &PlanDesc) -> Result<Self, PlanError> {
         let rule = desc.boundary.or(cage.boundary_rule()).unwrap_or_default();
         let drawn = cage.drawn_faces(rule);
+        let quads_and_triangles = (0..cage.face_count()).all(|f| matches!(cage.face(f).len(), 3 | 4));
+        Self::build_drawn(cage, (rule, desc.scheme), FaceSizes { quads: cage.is_quads(), quads_and_triangles }, &drawn)
+    }
+
+    /// Plans a part of a cage, of which its own faces are drawn. Everything that is computed for them, on the borders to other parts too, is what it is in a plan
+    /// of the whole cage, bit for bit.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn build_part(part: &CagePart, desc: &PlanDesc) -> Result<Self, PlanError> {
+        let cage = part.cage();
+        let rule = desc.boundary.or(cage.boundary_rule()).unwrap_or_default();
+        let mut drawn = cage.drawn_faces(rule);
+        (0..).zip(&mut drawn).for_each(|(f, drawn)| *drawn &= part.ring(f) <= 1);
+        let sizes =
+            FaceSizes { quads: part.is_of_quads(), quads_and_triangles: part.is_of_quads_and_triangles() };
+        let mut plan = Self::build_drawn(cage, (rule, desc.scheme), sizes, &drawn)?;
+        // Quads among other faces run through the kernel of those.
+        plan.levels.iter_mut().take(1).for_each(|level| level.quads &= sizes.quads);
+        plan.set_apart(part);
+        if plan.drawn_count() == 0 {
+            return Err(PlanError::NothingToDraw { faces: cage.face_count() });
+        }
+        Ok(plan)
+    }
+
+    /// Plans those faces of a cage that are to be drawn; `sizes` are those of the cage that it is a part of.
+    fn build_drawn(
+        cage: &Cage,
+        (rule, scheme): (BoundaryRule, Scheme),
+        sizes: FaceSizes,
+        drawn: &[bool],
+    ) -> Result<Self, PlanError> {
         if !drawn.contains(&true) {
             return Err(PlanError::NothingToDraw { faces: cage.face_count() });
         }
-        if desc.scheme == Scheme::Gregory1 {
-            return whole::build(cage, rule, &drawn);
+        if scheme == Scheme::Gregory1 {
+            return whole::build(cage, rule, u32::from(!sizes.quads_and_triangles), drawn);
         }
-        let steps = if cage.is_quads() { 1 } else { 2 };
+        let steps = if sizes.quads { 1 } else { 2 };
         check_size(cage, steps)?;
         let (base, locator) = (cage.topology(), Locator::new(cage, steps));
         let tables = RefineTables::build(base, rule, 0);
         if steps == 1 {
-            return Self::finish(base, vec![tables], (rule, desc.scheme), locator, |quad| {
+            return Self::finish(base, vec![tables], (rule, scheme), locator, |quad| {
                 drawn[base.face(quad) as usize]
             });
         }
         let mesh = QuadConnectivity::refine(base);
         let second = RefineTables::build(&mesh, rule, tables.first_new);
         let levels = vec![tables, second];
-        Self::finish(&mesh, levels, (rule, desc.scheme), locator, |quad| drawn[base.face(quad / 4) as usize])
+        Self::finish(&mesh, levels, (rule, scheme), locator, |quad| drawn[base.face(quad / 4) as usize])
     }
 
     /// Plans the patches of the mesh after one step on `mesh`, the last of `levels`.
@@ -175,9 +209,9 @@ impl SurfacePlan {
         if self.scheme != Scheme::Gregory1 {
             return corner == 0 && record.is_extraordinary();
         }
-        let first_stored = self.patches.len() - self.gathers.patches.len();
-        let gathered = (patch as usize).checked_sub(first_stored).map(|i| &self.gathers.patches[i]);
-        gathered.is_some_and(|source| self.gathers.irregular[source.fan[corner] as usize])
+        let gathered = self.gathers.patches.binary_search_by_key(&record.net, |source| source.first);
+        let source = gathered.ok().filter(|_| record.kind().is_stored()).map(|i| &self.gathers.patches[i]);
+        source.is_some_and(|source| self.gathers.irregular[source.fan[corner] as usize])
     }
 
     /// Number of the first edge record that does not come from a regular net: the one of the first spoke record.

@@ -49,18 +49,18 @@ impl<'a> GridPlan<'a> {
         }
         let counts: Vec<u32> =
             desc.surface.patches.par_iter().map(|record| desc.grid(record).pattern.vertex_count()).collect();
-        let (mut chunks, mut first, mut room) = (Vec::new(), 0, desc.max_vertices);
-        for (patch, &count) in counts.iter().enumerate() {
-            let patch = patch as u32;
-            if count > room && patch > first {
-                chunks.push(first..patch);
-                (first, room) = (patch, desc.max_vertices);
+        let mut chunks = Vec::new();
+        for run in desc.surface.drawn() {
+            let (mut first, mut room) = (run.start, desc.max_vertices);
+            for patch in run.clone() {
+                let count = counts[patch as usize];
+                if count > room && patch > first {
+                    chunks.push(first..patch);
+                    (first, room) = (patch, desc.max_vertices);
+                }
+                room = room.saturating_sub(count);
             }
-            room = room.saturating_sub(count);
-        }
-        let patches = counts.len() as u32;
-        if patches > first {
-            chunks.push(first..patches);
+            chunks.push(first..run.end);
         }
         Self { desc, chunks }
     }

@@ -59,7 +59,7 @@ impl<'a, M: Connectivity> WholeMesh<'a, M> {
             let count = whole.faces.len() as u32 - first_patch;
             if count > 0 {
                 let first_index = if first_patch == 0 { 0 } else { 16 * whole.regular_count() };
-                whole.lists.push(PatchList { kind, first_patch, count, first_index, weights: 0 });
+                whole.lists.push(PatchList { kind, first_patch, count, drawn: count, first_index, weights: 0 });
             }
         }
         for (patch, &face) in whole.faces.iter().enumerate() {

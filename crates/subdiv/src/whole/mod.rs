@@ -80,18 +80,12 @@ pub(crate) const fn control_points(form: PatchForm) -> u32 {
     if matches!(form, PatchForm::Triangle) { 15 } else { 20 }
 }
 
-/// Refinement steps of a cage: none for quads and triangles, else one, which makes quads of all faces.
-pub(crate) fn steps(cage: &Cage) -> u32 {
-    let whole = (0..cage.face_count()).all(|f| matches!(cage.face(f).len(), 3 | 4));
-    u32::from(!whole)
-}
-
-/// Plans a cage; `drawn` says which of its faces are.
+/// Plans a cage, of which `drawn` says which faces are: after no steps if it is of quads and triangles, else after one, which makes quads of all faces.
 ///
 /// # Errors
 /// If the mesh is too large for 32-bit indices, or fans would fill the memory.
-pub(crate) fn build(cage: &Cage, rule: BoundaryRule, drawn: &[bool]) -> Result<SurfacePlan, PlanError> {
-    let (base, steps) = (cage.topology(), steps(cage));
+pub(crate) fn build(cage: &Cage, rule: BoundaryRule, steps: u32, drawn: &[bool]) -> Result<SurfacePlan, PlanError> {
+    let base = cage.topology();
     check_size(base.half_edge_count() as u64 * if steps == 0 { 1 } else { 4 })?;
     if steps == 0 {
         return finish(cage, rule, base, Vec::new(), |face| drawn[face as usize]);
