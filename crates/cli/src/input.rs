@@ -2,6 +2,7 @@
 
 use crate::args::GlobalArgs;
 use crate::failure::Failure;
+use crate::generated::{torus, torus_quads};
 use crate::options::ReadArgs;
 use crate::progress::Progress;
 use clap::{Args, ValueEnum};
@@ -16,7 +17,8 @@ use std::path::{Path, PathBuf};
 #[derive(Args, Debug)]
 pub(crate) struct InputArgs {
     /// The control cage: .obj, .ply, .off, .gltf, .glb, .usd, .usda, .usdc or .usdz. Of numbered files, named by a pattern such
-    /// as walk_####.obj or walk_%04d.obj, and of time samples in a file it is the first frame.
+    /// as walk_####.obj or walk_%04d.obj, and of time samples in a file it is the first frame. torus:N is a generated torus of about
+    /// N quads.
     pub(crate) file: PathBuf,
 
     /// What happens where the cage ends. Default: what the file's tags say, else edge-and-corner.
@@ -68,7 +70,12 @@ pub(crate) struct Input {
 impl InputArgs {
     /// Reads the cage, passing its warnings on.
     pub(crate) fn read(&self, global: &GlobalArgs) -> Result<Input, Failure> {
-        let input = self.input(read(&self.file, &self.read.desc()?, global)?);
+        let generated = self.file.to_str().and_then(torus_quads);
+        let cage = match generated {
+            Some(count) => torus(count?)?,
+            None => read(&self.file, &self.read.desc()?, global)?,
+        };
+        let input = self.input(cage);
         warn(&self.file, &input.cage);
         Ok(input)
     }
@@ -109,6 +116,9 @@ impl InputArgs {
         match error {
             EngineError::Plan(error) => Failure::input(format_args!("{}: {error}", self.file.display()))
                 .with_hint("inspect says what the cage is made of"),
+            EngineError::TooLarge { .. } => Failure::input(format_args!("{}: {error}", self.file.display())).with_hint(
+                "render (of one picture), check and export work at such a cage in parts; other commands need the whole",
+            ),
             other => other.into(),
         }
     }

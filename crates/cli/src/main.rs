@@ -5,6 +5,7 @@ mod cache;
 mod commands;
 mod device;
 mod failure;
+mod generated;
 mod input;
 #[cfg(unix)]
 mod interruption;

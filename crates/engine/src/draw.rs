@@ -378,15 +378,14 @@ mod tests {
 
     #[test]
     fn runs_cover_every_patch_once() {
-        let list =
-            |first_patch, count| PatchList {
-                kind: PatchKind::Regular,
-                first_patch,
-                count,
-                drawn: count,
-                first_index: 0,
-                weights: 0,
-            };
+        let list = |first_patch, count| PatchList {
+            kind: PatchKind::Regular,
+            first_patch,
+            count,
+            drawn: count,
+            first_index: 0,
+            weights: 0,
+        };
         let lists = [list(0, 31), list(31, 10)];
         let runs: Vec<(u32, u32, u32)> =
             runs(&lists, 15).map(|run| (run.list.first_patch, run.first, run.count)).collect();

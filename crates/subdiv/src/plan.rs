@@ -97,8 +97,7 @@ impl SurfacePlan {
         let rule = desc.boundary.or(cage.boundary_rule()).unwrap_or_default();
         let mut drawn = cage.drawn_faces(rule);
         (0..).zip(&mut drawn).for_each(|(f, drawn)| *drawn &= part.ring(f) <= 1);
-        let sizes =
-            FaceSizes { quads: part.is_of_quads(), quads_and_triangles: part.is_of_quads_and_triangles() };
+        let sizes = FaceSizes { quads: part.is_of_quads(), quads_and_triangles: part.is_of_quads_and_triangles() };
         let mut plan = Self::build_drawn(cage, (rule, desc.scheme), sizes, &drawn)?;
         // Quads among other faces run through the kernel of those.
         plan.levels.iter_mut().take(1).for_each(|level| level.quads &= sizes.quads);
@@ -127,9 +126,7 @@ impl SurfacePlan {
         let (base, locator) = (cage.topology(), Locator::new(cage, steps));
         let tables = RefineTables::build(base, rule, 0);
         if steps == 1 {
-            return Self::finish(base, vec![tables], (rule, scheme), locator, |quad| {
-                drawn[base.face(quad) as usize]
-            });
+            return Self::finish(base, vec![tables], (rule, scheme), locator, |quad| drawn[base.face(quad) as usize]);
         }
         let mesh = QuadConnectivity::refine(base);
         let second = RefineTables::build(&mesh, rule, tables.first_new);

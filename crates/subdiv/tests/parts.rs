@@ -41,8 +41,11 @@ impl Computed {
     fn place(&self, patch: u32) -> (u32, u32) {
         let quad = self.plan.quads[patch as usize];
         let face = self.plan.locator.base_face(quad);
-        let first = self.plan.quads.iter().filter(|&&q| self.plan.locator.base_face(q) == face).min();
-        (self.part.faces()[face as usize], quad - first.unwrap_or(&0))
+        let first = match self.plan.steps() {
+            0 => face,
+            steps => self.part.cage().face_offsets()[face as usize] << (2 * (steps - 1)),
+        };
+        (self.part.faces()[face as usize], quad - first)
     }
 
     /// Everything that a patch is made of, by bits.
@@ -119,7 +122,11 @@ fn cages() -> Vec<(String, Cage, usize)> {
     let fans: &[&[u32]] = &[&[0, 1, 2, 3], &[3, 2, 4, 5], &[5, 4, 6, 7], &[7, 6, 8], &[8, 6, 9, 10, 11]];
     cages.push(("quads, then others".to_owned(), common::cage(12, fans)));
     let count = |cage: &Cage| if cage.face_count() > 300 { 3 } else { cage.face_count().div_ceil(7).min(9) };
-    cages.into_iter().map(|(name, cage)| (name, count(&cage), cage)).map(|(name, count, cage)| (name, cage, count)).collect()
+    cages
+        .into_iter()
+        .map(|(name, cage)| (name, count(&cage), cage))
+        .map(|(name, count, cage)| (name, cage, count))
+        .collect()
 }
 
 #[test]
@@ -147,7 +154,10 @@ fn one_part_is_the_plan_of_the_cage() {
             let part = SurfacePlan::build_part(&CagePart::cut(&cage, &all, 0), &desc).unwrap();
             let plan = SurfacePlan::build(&cage, &desc).unwrap();
             assert_eq!(part.drawn().collect::<Vec<_>>(), [0..plan.patches.len() as u32], "{name}");
-            assert!(part.drawn().eq(plan.drawn()) && part.lists == plan.lists && part.patches == plan.patches, "{name}");
+            assert!(
+                part.drawn().eq(plan.drawn()) && part.lists == plan.lists && part.patches == plan.patches,
+                "{name}"
+            );
             assert!(part.nets.len() == plan.nets.len() && part.weights == plan.weights, "{name}");
         }
     }

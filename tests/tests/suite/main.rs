@@ -12,6 +12,7 @@ mod fallback;
 mod golden;
 mod instances;
 mod leaks;
+mod parts;
 mod pictures;
 mod sampling;
 mod subdivision;

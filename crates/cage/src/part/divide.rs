@@ -49,10 +49,10 @@ fn place(cage: &Cage, f: u32) -> DVec3 {
 
 fn longest_axis(cage: &Cage, faces: &[u32]) -> usize {
     let start = Bounds { min: DVec3::INFINITY, max: DVec3::NEG_INFINITY };
-    let bounds = faces.iter().map(|&f| place(cage, f)).fold(start, |bounds, p| Bounds {
-        min: bounds.min.min(p),
-        max: bounds.max.max(p),
-    });
+    let bounds = faces
+        .iter()
+        .map(|&f| place(cage, f))
+        .fold(start, |bounds, p| Bounds { min: bounds.min.min(p), max: bounds.max.max(p) });
     let size = bounds.max - bounds.min;
     (1..3).fold(0, |longest, axis| if size[axis] > size[longest] { axis } else { longest })
 }

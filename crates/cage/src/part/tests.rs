@@ -63,8 +63,7 @@ fn rings_are_the_faces_that_touch_those_before() {
         let ring_of = |f: u32| part.faces().binary_search(&f).ok().map(|i| part.ring(i as u32));
         for f in 0..81 {
             let near = |r: u8| (0..81).any(|g| ring_of(g) == Some(r) && touch(&cage, f, g));
-            let expected =
-                if own.contains(&f) { Some(0) } else { (1..=rings).find(|&r| near(r - 1)) };
+            let expected = if own.contains(&f) { Some(0) } else { (1..=rings).find(|&r| near(r - 1)) };
             assert_eq!(ring_of(f), expected, "face {f}, {rings} rings");
         }
     }
@@ -84,7 +83,10 @@ fn a_part_has_the_same_faces_in_the_same_order_as_the_whole() {
                 assert_eq!(part.whole_half_edge(h), of_whole);
                 assert_eq!(part.vertices()[topology.origin(h) as usize], whole.origin(of_whole));
                 let (uv, whole_uv) = (part.cage().uv().unwrap(), cage.uv().unwrap());
-                assert_eq!(uv.values[uv.indices[h as usize] as usize], whole_uv.values[whole_uv.indices[of_whole as usize] as usize]);
+                assert_eq!(
+                    uv.values[uv.indices[h as usize] as usize],
+                    whole_uv.values[whole_uv.indices[of_whole as usize] as usize]
+                );
                 let twin = topology.twin(h);
                 let whole_twin = whole.twin(of_whole);
                 if part.ring(f) < CagePart::RINGS {

@@ -270,7 +270,11 @@ pub(super) fn number_edges(topology: &mut Topology, watch: &Watch) -> Result<(),
 }
 
 /// Chooses the half-edge of each vertex and counts its faces.
-pub(super) fn find_vertex_half_edges(topology: &mut Topology, vertex_count: usize, watch: &Watch) -> Result<(), Cancelled> {
+pub(super) fn find_vertex_half_edges(
+    topology: &mut Topology,
+    vertex_count: usize,
+    watch: &Watch,
+) -> Result<(), Cancelled> {
     let mut starts = vec![NONE; vertex_count];
     let mut valences = vec![0_u32; vertex_count];
     for h in (0..topology.half_edge_count() as u32).rev() {

@@ -4,12 +4,16 @@ use crate::args::GlobalArgs;
 use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
 use crate::input::InputArgs;
-use crate::options::{CameraArgs, DisplaceArgs, DrawEvaluator, Level, Pixels, SchemeChoice, SpacingArg};
+use crate::options::{
+    CameraArgs, DisplaceArgs, DrawEvaluator, Level, Maps, PartsArgs, Pixels, SchemeChoice, SpacingArg,
+};
 use crate::progress::Progress;
 use crate::stdout;
 use clap::Args;
-use osculate::{CheckReport, Engine, Factors, Scheme, Surface, SurfaceDesc, Tessellation, check};
-use osculate_cage::Bounds;
+use osculate::{
+    CheckReport, Engine, Factors, Parts, PartsProof, Scheme, SurfaceDesc, Tessellation, WholeOrParts, check,
+};
+use osculate_cage::{BoundaryRule, Bounds};
 use serde::Serialize;
 
 /// Prove that the drawn surface has no cracks.
@@ -71,6 +75,9 @@ pub(crate) struct CheckArgs {
 
     #[command(flatten)]
     camera: CameraArgs,
+
+    #[command(flatten)]
+    parts: PartsArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -91,6 +98,7 @@ pub(crate) struct Job {
     json: bool,
     displace: DisplaceArgs,
     camera: CameraArgs,
+    parts: PartsArgs,
 }
 
 /// What decides the tessellation factors.
@@ -118,6 +126,7 @@ impl CheckArgs {
             json: self.json,
             displace: self.displace,
             camera: self.camera,
+            parts: self.parts,
         })
     }
 }
@@ -132,13 +141,24 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
         let mut watertight = true;
         for &scheme in &job.schemes {
             let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
-            let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
-            let surface = maps.apply(surface, &input.cage, &job.input.file)?;
-            for case in &cases {
-                let report = check(&surface, &case.tessellation)?;
+            let made = WholeOrParts::new(engine, &input.cage, &job.parts.desc(desc));
+            let mut finish = |case, report: &CheckReport| {
                 watertight &= report.is_watertight();
-                job.print(scheme, case, &report)?;
-                progress.advance(1);
+                job.print(scheme, case, report)
+            };
+            match made.map_err(|error| job.input.refuse(error))? {
+                WholeOrParts::Whole(surface) => {
+                    let surface = maps.apply(surface, &input.cage, &job.input.file)?;
+                    for case in &cases {
+                        finish(case, &check(&surface, &case.tessellation)?)?;
+                        progress.advance(1);
+                    }
+                }
+                WholeOrParts::Parts(parts) => {
+                    let reports = job.check_parts(parts, &cases, &maps, input.boundary)?;
+                    cases.iter().zip(&reports).try_for_each(|(case, report)| finish(case, report))?;
+                    progress.advance(cases.len() as u64);
+                }
             }
         }
         Ok(Verdict::of(watertight))
@@ -155,6 +175,27 @@ struct Case {
 }
 
 impl Job {
+    /// Proves all cases of each part while it is on the device.
+    fn check_parts(
+        &self,
+        mut parts: Parts<'_>,
+        cases: &[Case],
+        maps: &Maps,
+        boundary: BoundaryRule,
+    ) -> Result<Vec<CheckReport>, Failure> {
+        let mut proofs: Vec<PartsProof> = cases.iter().map(|_| PartsProof::new(parts.cage(), Some(boundary))).collect();
+        parts.for_each(|part| {
+            let surface = maps.apply(part.surface().clone(), part.cage().cage(), &self.input.file)?;
+            for (proof, case) in proofs.iter_mut().zip(cases) {
+                proof.add(part, &surface, &case.tessellation)?;
+            }
+            let (number, count) = part.number();
+            tracing::info!("part {} of {count} is proved", number + 1);
+            Ok::<(), Failure>(())
+        })?;
+        Ok(proofs.into_iter().map(PartsProof::finish).collect())
+    }
+
     fn cases(&self, bounds: Bounds) -> Result<Vec<Case>, Failure> {
         let case = |key, value, view, factors| {
             let tessellation = Tessellation { factors, spacing: self.spacing.into(), evaluator: self.evaluator.into() };

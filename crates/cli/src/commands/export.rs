@@ -6,12 +6,13 @@ use crate::failure::{Failure, Verdict, WriteError};
 use crate::input::InputArgs;
 use crate::mesh::soup::{Soup, SoupVertex};
 use crate::mesh::{Corner, Mesh, Welder, glb, obj, ply, stl};
-use crate::options::{CameraArgs, DisplaceArgs, Output, SchemeName, TessellationArgs, uv_origin};
+use crate::options::{CameraArgs, DisplaceArgs, Maps, Output, PartsArgs, SchemeName, TessellationArgs, uv_origin};
 use crate::progress::Progress;
 use clap::Args;
 use glam::Vec3;
 use osculate::{
-    CapturedVertex, Engine, Place, Scheme, SubFace, Surface, SurfaceDesc, Tessellation, UvOrigin, VertexKey,
+    CageSpace, CapturedVertex, Engine, Part, Place, Scheme, SubFace, Surface, SurfaceDesc, Tessellation, UvOrigin,
+    VertexKey, WholeKey, WholeOrParts,
 };
 use osculate_cage::{Bounds, Cage};
 use osculate_compare::whole_file;
@@ -51,6 +52,9 @@ pub(crate) struct ExportArgs {
 
     #[command(flatten)]
     camera: CameraArgs,
+
+    #[command(flatten)]
+    parts: PartsArgs,
 }
 
 const EXAMPLES: &str = "\
@@ -78,6 +82,7 @@ pub(crate) struct Job {
     tessellation: TessellationArgs,
     displace: DisplaceArgs,
     camera: CameraArgs,
+    parts: PartsArgs,
 }
 
 impl ExportArgs {
@@ -100,6 +105,7 @@ impl ExportArgs {
             tessellation: self.tessellation,
             displace: self.displace,
             camera: self.camera,
+            parts: self.parts,
         })
     }
 }
@@ -112,11 +118,10 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     let maps = job.displace.load(&input.cage)?;
     let desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary) };
     with_engine(global, |engine: &Engine| {
-        let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
-        let surface = maps.apply(surface, &input.cage, &job.input.file)?;
-        let progress = Progress::new(global.quiet, surface.plan().patches.len() as u64, "drawing");
-        let uv = job.uv(&input.cage, &surface);
-        let drawing = Drawing { cage: &input.cage, surface: &surface, uv, tessellation, progress };
+        let made = WholeOrParts::new(engine, &input.cage, &job.parts.desc(desc));
+        let surface = made.map_err(|error| job.input.refuse(error))?;
+        let progress = Progress::new(global.quiet, job.patches(&input.cage, &surface), "drawing");
+        let mut drawing = Drawing { job, cage: &input.cage, surface, maps, tessellation, progress };
         let path = &job.output.path;
         drawing.export(job.output.format, path).map_err(|error| error.to(path))
     })?;
@@ -125,10 +130,19 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
 }
 
 impl Job {
-    /// Texture coordinates, if there are any and the format holds them, and where their v begins.
-    fn uv(&self, cage: &Cage, surface: &Surface) -> Option<(UvTables, UvOrigin)> {
-        let uv = cage.uv().filter(|_| matches!(self.output.format, Format::Obj | Format::Glb))?;
-        Some((UvTables::new(surface.plan(), uv, |uv| uv), uv_origin(&self.input.file)))
+    /// How many patches there are, or about how many in parts: one for each corner.
+    fn patches(&self, cage: &Cage, surface: &WholeOrParts<'_>) -> u64 {
+        match surface {
+            WholeOrParts::Whole(surface) => surface.plan().patches.len() as u64,
+            WholeOrParts::Parts(_) => cage.face_vertices().len() as u64,
+        }
+    }
+
+    /// Where v begins in the texture coordinates of a cage, if there are any and the format holds them.
+    fn uv_origin(&self, cage: &Cage) -> Option<UvOrigin> {
+        cage.uv()
+            .filter(|_| matches!(self.output.format, Format::Obj | Format::Glb))
+            .map(|_| uv_origin(&self.input.file))
     }
 
     /// Says so if numbers of the format lie so far apart where the cage is that its shape suffers.
@@ -155,17 +169,49 @@ fn spacing(number: f64) -> f64 {
     f64::from(number.next_up()) - f64::from(number)
 }
 
+/// What a vertex is, in a surface or in all parts of one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+enum Key {
+    Whole(VertexKey),
+    Part(WholeKey),
+}
+
+/// A surface, or a part of one, with its texture coordinates if they are asked for.
+struct Piece<'a> {
+    surface: &'a Surface,
+    part: Option<&'a Part>,
+    uv: Option<UvTables>,
+}
+
+impl Piece<'_> {
+    fn corner(&self, vertex: &CapturedVertex) -> Corner<Key> {
+        let plan = self.surface.plan();
+        let key = match self.part {
+            None => Key::Whole(VertexKey::of(plan, vertex)),
+            Some(part) => Key::Part(part.key(vertex)),
+        };
+        let uv = self.uv.as_ref().map_or([0.0; 2], |uv| uv.at(plan, vertex.patch, vertex.uv));
+        Corner { key, position: vertex.position.into(), normal: vertex.normal.into(), uv }
+    }
+
+    fn place(&self, vertex: &CapturedVertex) -> Place {
+        let uv = vertex.uv.map(f64::from);
+        self.part.map_or_else(|| self.surface.place(vertex.patch, uv), |part| part.place(vertex.patch, uv))
+    }
+}
+
 /// A surface about to be drawn into memory.
 struct Drawing<'a> {
+    job: &'a Job,
     cage: &'a Cage,
-    surface: &'a Surface,
-    uv: Option<(UvTables, UvOrigin)>,
+    surface: WholeOrParts<'a>,
+    maps: Maps,
     tessellation: Tessellation,
     progress: Progress,
 }
 
 impl Drawing<'_> {
-    fn export(&self, format: Format, path: &Path) -> Result<(), WriteError> {
+    fn export(&mut self, format: Format, path: &Path) -> Result<(), WriteError> {
         let writer: fn(&Mesh, &mut dyn Write) -> io::Result<()> = match format {
             Format::Soup => {
                 let soup = self.soup(path)?;
@@ -183,44 +229,54 @@ impl Drawing<'_> {
     }
 
     /// All triangles, with one vertex per key.
-    fn welded(&self) -> Result<Mesh, WriteError> {
-        let plan = self.surface.plan();
-        let mut welder = Welder::new(*self.surface.space(), self.uv.as_ref().map(|&(_, origin)| origin));
-        self.capture(|triangle| {
-            let corner = |vertex: &CapturedVertex| Corner {
-                key: VertexKey::of(plan, vertex),
-                position: vertex.position.into(),
-                normal: vertex.normal.into(),
-                uv: self.uv.as_ref().map_or([0.0; 2], |(uv, _)| uv.at(plan, vertex.patch, vertex.uv)),
-            };
-            let joined = welder.push([0, 1, 2].map(|i| corner(&triangle[i])));
+    fn welded(&mut self) -> Result<Mesh, WriteError> {
+        let mut welder = Welder::new(CageSpace::new(self.cage.bounds()), self.job.uv_origin(self.cage));
+        self.capture(|piece, triangle| {
+            let joined = welder.push([0, 1, 2].map(|i| piece.corner(&triangle[i])));
             joined.ok_or_else(|| Failure::usage("more vertices than 32-bit indices can count; lower the level").into())
         })?;
         Ok(welder.finish())
     }
 
     /// All triangles as they come.
-    fn soup(&self, path: &Path) -> Result<Soup, WriteError> {
-        let mut soup = Soup::new(*self.surface.space(), path)?;
-        self.capture(|triangle| triangle.iter().try_for_each(|vertex| Ok(soup.push(&self.placed(vertex))?)))?;
+    fn soup(&mut self, path: &Path) -> Result<Soup, WriteError> {
+        let cage = self.cage;
+        let mut soup = Soup::new(CageSpace::new(cage.bounds()), path)?;
+        self.capture(|piece, triangle| {
+            triangle.iter().try_for_each(|vertex| Ok(soup.push(&placed(cage, piece, vertex))?))
+        })?;
         Ok(soup)
     }
 
-    fn placed(&self, vertex: &CapturedVertex) -> SoupVertex {
-        let Place { sub_face: SubFace { face, sub }, st, .. } =
-            self.surface.place(vertex.patch, vertex.uv.map(f64::from));
-        let (position, normal) = (Vec3::from(vertex.position), Vec3::from(vertex.normal));
-        let face = self.cage.source_face(face) as i32;
-        SoupVertex { position, normal, face, sub, st: st.map(|x| x as f32) }
+    /// Hands the triangles on, one by one, with the piece of the surface that they are of.
+    fn capture(
+        &mut self,
+        mut sink: impl FnMut(&Piece<'_>, &[CapturedVertex; 3]) -> Result<(), WriteError>,
+    ) -> Result<(), WriteError> {
+        let Self { job, cage: whole, surface, maps, tessellation, progress } = self;
+        let has_uv = job.uv_origin(whole).is_some();
+        let mut capture = |surface: &Surface, cage: &Cage, part: Option<&Part>| {
+            let surface = &maps.apply(surface.clone(), cage, &job.input.file)?;
+            let uv = cage.uv().filter(|_| has_uv).map(|uv| UvTables::new(surface.plan(), uv, |uv| uv));
+            let piece = Piece { surface, part, uv };
+            surface.capture(tessellation, |vertices| {
+                vertices.as_chunks::<3>().0.iter().try_for_each(|triangle| sink(&piece, triangle))?;
+                let patches = vertices.chunk_by(|a, b| a.patch == b.patch).count();
+                progress.advance(patches as u64);
+                Ok(())
+            })
+        };
+        match surface {
+            WholeOrParts::Whole(surface) => capture(surface, whole, None),
+            WholeOrParts::Parts(parts) => {
+                parts.for_each(|part| capture(part.surface(), part.cage().cage(), Some(part)))
+            }
+        }
     }
+}
 
-    /// Hands the triangles on, one by one.
-    fn capture(&self, mut sink: impl FnMut(&[CapturedVertex; 3]) -> Result<(), WriteError>) -> Result<(), WriteError> {
-        self.surface.capture(&self.tessellation, |vertices| {
-            vertices.as_chunks::<3>().0.iter().try_for_each(&mut sink)?;
-            let patches = vertices.chunk_by(|a, b| a.patch == b.patch).count();
-            self.progress.advance(patches as u64);
-            Ok(())
-        })
-    }
+fn placed(cage: &Cage, piece: &Piece<'_>, vertex: &CapturedVertex) -> SoupVertex {
+    let Place { sub_face: SubFace { face, sub }, st, .. } = piece.place(vertex);
+    let (position, normal) = (Vec3::from(vertex.position), Vec3::from(vertex.normal));
+    SoupVertex { position, normal, face: cage.source_face(face) as i32, sub, st: st.map(|x| x as f32) }
 }

@@ -5,7 +5,8 @@ use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
 use crate::input::InputArgs;
 use crate::options::{
-    AnimationArgs, CameraArgs, Colour, CullArg, DisplaceArgs, Maps, NumberedPath, Output, SchemeName, TessellationArgs,
+    AnimationArgs, CameraArgs, Colour, CullArg, DisplaceArgs, Maps, NumberedPath, Output, PartsArgs, SchemeName,
+    TessellationArgs,
 };
 use crate::progress::Progress;
 use clap::{Args, ValueEnum};
@@ -47,6 +48,9 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     animation: AnimationArgs,
+
+    #[command(flatten)]
+    parts: PartsArgs,
 }
 
 /// What the picture looks like.
@@ -181,6 +185,7 @@ pub(crate) struct Job {
     displace: DisplaceArgs,
     camera: CameraArgs,
     animation: AnimationArgs,
+    parts: PartsArgs,
 }
 
 impl RenderArgs {
@@ -199,6 +204,7 @@ impl RenderArgs {
             displace: self.displace,
             camera: self.camera,
             animation: self.animation,
+            parts: self.parts,
         })
     }
 }
@@ -242,7 +248,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
         with_engine(global, |engine| job.draw_film(engine, &frames, &film, global))?;
     } else {
         let input = job.input.read(global)?;
-        with_engine(global, |engine| job.draw_still(engine, &input))?;
+        with_engine(global, |engine| job.draw_still(engine, &input, global))?;
     }
     Ok(Verdict::Pass)
 }

@@ -11,6 +11,7 @@ mod export;
 mod gltf;
 mod inspect;
 mod maps;
+mod parts;
 mod render;
 mod repair;
 mod sample;

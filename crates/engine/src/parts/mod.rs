@@ -96,10 +96,7 @@ impl<'a> Parts<'a> {
     ///
     /// # Errors
     /// If a part cannot be planned or even a part of one face is too large for the device, if it fails; and whatever `visit` returns.
-    pub fn for_each<E: From<EngineError>>(
-        &mut self,
-        mut visit: impl FnMut(&Part) -> Result<(), E>,
-    ) -> Result<(), E> {
+    pub fn for_each<E: From<EngineError>>(&mut self, mut visit: impl FnMut(&Part) -> Result<(), E>) -> Result<(), E> {
         let mut number = 0;
         while number < self.count() {
             match self.make(number) {

@@ -1,10 +1,14 @@
 //! What `render` draws and writes.
 
 use super::Job;
+use crate::args::GlobalArgs;
 use crate::failure::{Failure, PLACE_HINT};
 use crate::input::Input;
+use crate::progress::Progress;
 use crate::stdout;
-use osculate::{Difference, Engine, RenderDesc, Scheme, Surface, SurfaceDesc, render, render_difference};
+use osculate::{
+    Difference, Engine, Parts, RenderDesc, Scheme, Surface, SurfaceDesc, WholeOrParts, render, render_difference,
+};
 use osculate_compare::Picture;
 use std::fmt;
 use std::path::Path;
@@ -44,9 +48,7 @@ impl Scene<'_> {
 
     /// Writes a picture, and prints what was measured.
     pub(super) fn write(&self, path: &Path, (picture, difference): &Drawn, number: Option<u32>) -> Result<(), Failure> {
-        picture.write(path).map_err(|error| Failure::usage(error).with_hint(PLACE_HINT))?;
-        let bytes = std::fs::metadata(path).map_or(0, |found| found.len());
-        tracing::info!("{}: {} pixels, {bytes} bytes", path.display(), picture.size());
+        self.job.write_picture(path, picture)?;
         if let (Some(difference), Some(against)) = (*difference, self.job.against) {
             let distances = Distances { difference, schemes: [self.job.scheme, against], size: self.size };
             match number {
@@ -74,24 +76,66 @@ pub(super) fn warn_if_blank(path: &Path, picture: &Picture) -> bool {
 impl Job {
     /// The surfaces on the device.
     pub(super) fn scene<'a>(&'a self, engine: &'a Engine, input: &Input) -> Result<Scene<'a>, Failure> {
+        let desc = SurfaceDesc { scheme: self.scheme, boundary: Some(input.boundary) };
+        let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))?;
+        self.scene_of(engine, input, surface)
+    }
+
+    /// The surfaces on the device, one of which is there, without maps.
+    fn scene_of<'a>(&'a self, engine: &'a Engine, input: &Input, drawn: Surface) -> Result<Scene<'a>, Failure> {
         let maps = self.maps(&input.cage)?;
+        let dressed = |surface| maps.apply(surface, &input.cage, &self.input.file);
         let surface = |scheme| {
             let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
-            let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))?;
-            maps.apply(surface, &input.cage, &self.input.file)
+            dressed(Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))?)
         };
         let size = 2.0 * input.cage.bounds().half_diagonal();
         let against = self.against.map(surface).transpose()?;
-        Ok(Scene { job: self, engine, drawn: surface(self.scheme)?, against, size })
+        Ok(Scene { job: self, engine, drawn: dressed(drawn)?, against, size })
     }
 
     /// Draws the cage as it is in its file.
-    pub(super) fn draw_still(&self, engine: &Engine, input: &Input) -> Result<(), Failure> {
+    pub(super) fn draw_still(&self, engine: &Engine, input: &Input, global: &GlobalArgs) -> Result<(), Failure> {
         let desc = self.desc(input.cage.bounds())?;
-        let scene = self.scene(engine, input)?;
+        let surface = SurfaceDesc { scheme: self.scheme, boundary: Some(input.boundary) };
+        let made = WholeOrParts::new(engine, &input.cage, &self.parts.desc(surface));
+        let scene = match made.map_err(|error| self.input.refuse(error))? {
+            WholeOrParts::Whole(surface) => self.scene_of(engine, input, surface)?,
+            WholeOrParts::Parts(parts) => return self.draw_parts(parts, &desc, global),
+        };
         let drawn = scene.draw(&desc)?;
         warn_if_blank(&self.output.path, &drawn.0);
         scene.write(&self.output.path, &drawn, None)
+    }
+
+    /// Draws a cage that is too large for the device.
+    fn draw_parts(&self, mut parts: Parts<'_>, desc: &RenderDesc, global: &GlobalArgs) -> Result<(), Failure> {
+        if self.against.is_some() {
+            return Err(Failure::usage(format_args!(
+                "{}: the shade difference is not drawn of a cage in {} parts",
+                self.input.file.display(),
+                parts.count()
+            ))
+            .with_hint("choose another shade, a smaller cage, or a --device whose shaders see more"));
+        }
+        let maps = self.maps(parts.cage())?;
+        let progress = Progress::in_stages(global.quiet);
+        let picture = parts.render(desc, |part| {
+            let (number, count) = part.number();
+            progress.stage("drawing parts", number as u64, count as u64);
+            maps.apply(part.surface().clone(), part.cage().cage(), &self.input.file)
+        })?;
+        let [width, height] = picture.size;
+        let picture = Picture::new(width, height, picture.rgba).map_err(Failure::device)?;
+        warn_if_blank(&self.output.path, &picture);
+        self.write_picture(&self.output.path, &picture)
+    }
+
+    fn write_picture(&self, path: &Path, picture: &Picture) -> Result<(), Failure> {
+        picture.write(path).map_err(|error| Failure::usage(error).with_hint(PLACE_HINT))?;
+        let bytes = std::fs::metadata(path).map_or(0, |found| found.len());
+        tracing::info!("{}: {} pixels, {bytes} bytes", path.display(), picture.size());
+        Ok(())
     }
 }
 
