@@ -29,22 +29,18 @@ fn pictures_are_the_same() {
     }
 }
 
-/// The triangles come in another order.
+/// The triangles, and with them the vertices, come in another order.
 #[test]
 fn exports_have_the_same_vertices() {
-    for (format, arguments) in [("out.ply", &["--no-weld"][..]), ("out.obj", &[])] {
-        let [whole, parts] = both(format, &[&["export", "cage.obj", "--level", "2"], arguments].concat());
-        assert_eq!(whole.len(), parts.len(), "{format}");
-        if format == "out.obj" {
-            let vertices = |file: &[u8]| {
-                let text = String::from_utf8(file.to_vec()).unwrap();
-                let mut lines: Vec<String> = text.lines().filter(|l| l.starts_with('v')).map(str::to_owned).collect();
-                lines.sort();
-                lines
-            };
-            assert_eq!(vertices(&whole), vertices(&parts));
-        }
-    }
+    let [whole, parts] = both("out.ply", &["export", "cage.obj", "--level", "2", "--no-weld"]);
+    assert_eq!(whole.len(), parts.len());
+    let vertices = both("out.obj", &["export", "cage.obj", "--level", "2"]).map(|file| {
+        let text = String::from_utf8(file).unwrap();
+        let mut lines: Vec<String> = text.lines().filter(|line| line.starts_with('v')).map(str::to_owned).collect();
+        lines.sort();
+        lines
+    });
+    assert!(vertices[0].len() > 100 && vertices[0] == vertices[1]);
 }
 
 #[test]
