@@ -19,7 +19,9 @@ pub(super) const EDGE_KERNELS: [&str; 2] = ["evaluate/edges.comp", "evaluate/edg
 pub(super) fn suits(surface: &Surface, output: Output) -> bool {
     let places = Measured::of(output) == Measured::Nothing && output.layout() == Layout::Shared;
     let cubic = surface.plan().lists.iter().all(|list| !list.kind.form().has_spokes());
-    places && cubic && !surface.is_mapped()
+    // Of a part of a cage, records that other parts draw are left out.
+    let whole = surface.plan().drawn_count() == surface.plan().patches.len();
+    places && cubic && whole && !surface.is_mapped()
 }
 
 /// Whether an output can be drawn so: edges are all divided alike, and all vertices fit one buffer.
