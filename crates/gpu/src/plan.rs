@@ -63,6 +63,7 @@ pub(crate) struct Call<'a> {
     pub(crate) pipeline: &'a Pipeline,
     /// What to bind; `None` if pipeline and buffers are those of the call before.
     pub(crate) descriptors: Option<Vec<Descriptor>>,
+    /// Push constants; empty if the pipeline takes none, or they are those of the call before.
     pub(crate) push: &'a [u8],
 }
 

@@ -176,7 +176,7 @@ impl Planner<'_> {
         draws: &'a [Draw],
         fits: impl Fn(Targets) -> bool,
     ) -> Result<Vec<DrawCall<'a>>, GpuError> {
-        let mut previous: Option<(&'a Pipeline, &'a Bindings)> = None;
+        let mut previous: Option<&'a Draw> = None;
         let mut calls = Vec::with_capacity(draws.len());
         for draw in draws {
             if !fits(draw.pipeline.targets) {
@@ -192,7 +192,7 @@ impl Planner<'_> {
                 return Err(self.refuse(&format!("pipeline {name:?} wants a descriptor set 1, see gpu::EncodeDraws")));
             }
             let call = self.call(&draw.pipeline.inner, &draw.bindings, &draw.push, previous)?;
-            previous = Some((call.pipeline, &draw.bindings));
+            previous = Some(draw);
             if let Vertices::Indexed { indices, range } = &draw.vertices {
                 self.index(indices, range.clone())?;
             }
@@ -247,16 +247,17 @@ impl Planner<'_> {
         pipeline: &'a Arc<Pipeline>,
         bindings: &'a Bindings,
         push: &'a [u8],
-        previous: Option<(&'a Pipeline, &'a Bindings)>,
+        previous: Option<&'a Draw>,
     ) -> Result<Call<'a>, GpuError> {
         let wanted = pipeline.interface().push_size;
         if push.len() as u64 != u64::from(wanted) {
             let (pass, pipeline) = (self.name.to_owned(), pipeline.name.clone());
             return Err(GpuError::PushConstants { pass, pipeline, given: push.len(), wanted });
         }
-        let same =
-            |(known, bound): (&Pipeline, &Bindings)| std::ptr::eq(known, &raw const **pipeline) && bound.same(bindings);
-        if previous.is_some_and(same) {
+        let previous = previous.filter(|draw| Arc::ptr_eq(&draw.pipeline.inner, pipeline));
+        // lavapipe takes push constants that are set again for other ones, and compiles the stages anew in case they can be made into constants.
+        let push = if previous.is_some_and(|draw| draw.push == push) { &[] } else { push };
+        if previous.is_some_and(|draw| draw.bindings.same(bindings)) {
             return Ok(Call { pipeline, descriptors: None, push });
         }
         if !pipeline.device.is(self.device) {

@@ -419,3 +419,20 @@ fn attributes_are_read_in_order_of_their_locations() {
         }
     });
 }
+
+/// Draws that follow each other may have the same push constants, which are set once, or others.
+#[test]
+fn draws_have_the_push_constants_that_they_were_given() {
+    with_device(|device| {
+        let image = target(device, "picture", Format::Rgba8Unorm, 1);
+        let pipeline = pipeline(device, |_| {});
+        let row = |y, color| {
+            let scissor = Some(Rect { origin: [0, y], size: [16, 4] });
+            Draw { scissor, ..draw(&pipeline, color, 0.0) }
+        };
+        let draws = vec![row(0, RED), row(4, RED), row(8, [0.0, 1.0, 0.0, 1.0]), row(12, RED)];
+        let found = drawing(device, [pass(cleared(&image, None), None, draws)], &image);
+        let colors: Vec<char> = [1, 5, 9, 13].iter().map(|&y: &usize| found[y].chars().nth(2).unwrap()).collect();
+        assert_eq!(colors, ['r', 'r', 'g', 'r']);
+    });
+}
