@@ -22,6 +22,7 @@
 //!   points are moved by [`Surface::set_points`] or by an [`Animator`], and it is painted and displaced by [`Surface::with_maps`].
 //! * [`render()`] makes a picture, [`Surface::capture`] hands out triangles, [`Surface::sample`] evaluates single points, and [`check()`] proves that no shared
 //!   edge is open. [`Tessellation`] says how finely, and whether the tessellator or compute kernels do it ([`Evaluator`]).
+//! * A cage too large for the device's buffers is drawn and proved in [`Parts`], one of which is on the device at a time: [`WholeOrParts`] decides.
 //! * A [`Drawing`] is what stays of a surface from frame to frame in programs that let the library submit.
 //!
 //! # In a renderer of one's own
