@@ -11,12 +11,7 @@ find_cargo
 export MESA_SHADER_CACHE_DIR="${MESA_SHADER_CACHE_DIR:-${CARGO_TARGET_DIR:-$PWD/target}/mesa-shader-cache}"
 mkdir -p "$MESA_SHADER_CACHE_DIR"
 
-# Without a GPU, name Mesa's software driver, so that the loader does not try the drivers of absent hardware.
-if [ -z "${VK_DRIVER_FILES:-}${VK_ICD_FILENAMES:-}" ] && ! compgen -G '/dev/dri/renderD*' >/dev/null \
-    && ! compgen -G '/dev/nvidia[0-9]*' >/dev/null; then
-    manifest=$(compgen -G '/usr/share/vulkan/icd.d/lvp_icd*.json' | head -n 1)
-    export VK_DRIVER_FILES="$manifest" VK_ICD_FILENAMES="$manifest"
-fi
+choose_driver
 
 if [ -n "${OSCULATE_REFERENCE:-}" ]; then
     [ -d "$OSCULATE_REFERENCE" ] || fail "OSCULATE_REFERENCE is not a folder: $OSCULATE_REFERENCE"
