@@ -4,7 +4,8 @@ use osculate_shaders::constant;
 use osculate_subdiv::{PatchForm, PatchKind, PatchList};
 
 /// Which patches the tessellator leaves out: of which nothing is seen in a picture. The tests err on the side of drawing, and what they leave out covers
-/// no sample, so that a picture has the same bits with them as without; but for [`Self::back`], which is to be chosen for closed surfaces seen from outside.
+/// no sample, so that a picture has the same bits with them as without; but for [`Self::back`], which is to be chosen for closed surfaces seen from outside. There a
+/// few pixels of the outline may differ, in which a back is seen without it, since fronts and backs have the same depth there but for roundings.
 ///
 /// Patches are told by the hull of their control points in the control stage (`shaders/include/culling.glsl`); stored patches of coefficients are always
 /// tessellated, and the compute evaluator evaluates everything. Triangles that show their backs are left out whoever made them.

@@ -51,6 +51,14 @@ fn closed() -> [(&'static str, Cage, &'static [Scheme]); 4] {
     ]
 }
 
+/// Pixels in which pictures differ.
+fn differing(a: &[u8], b: &[u8]) -> usize {
+    a.as_chunks::<4>().0.iter().zip(b.as_chunks::<4>().0).filter(|(a, b)| a != b).count()
+}
+
+/// Most pixels of a picture in which a back is seen at an outline, where triangles that show their fronts and their backs have the same depth but for roundings.
+const SEEN_BACKS: usize = 4;
+
 #[test]
 fn pictures_stay_the_same_and_take_fewer_triangles() {
     let gpu = gpu();
@@ -70,7 +78,8 @@ fn pictures_stay_the_same_and_take_fewer_triangles() {
                 assert!(unseen < all || !some || name != "twohole", "{scheme}, {view}: nothing is left out");
                 if view != "inside" {
                     let (found, front) = drawn(&gpu, &surface, &RenderDesc { culling: Culling::ALL, ..desc });
-                    assert!(found == whole, "{name}, {scheme}, {view}: backs are seen");
+                    let backs = differing(&found, &whole);
+                    assert!(backs <= SEEN_BACKS, "{name}, {scheme}, {view}: {backs} pixels of backs are seen");
                     if name == "torus" {
                         saved = [saved[0] + unseen, saved[1] + front];
                     }
@@ -118,7 +127,7 @@ fn tests_that_leave_out_too_much_are_noticed() {
             let desc = RenderDesc { camera, tessellation, samples: 1, ..RenderDesc::fit(&cage, SIZE) };
             let [all, seen] = [Culling::NONE, Culling::ALL]
                 .map(|culling| render(&gpu, &[&surface], &RenderDesc { culling, ..desc }).unwrap());
-            all != seen
+            differing(&all.rgba, &seen.rgba) > SEEN_BACKS
         });
         assert!(differs, "{from} as {to} goes unnoticed");
     }

@@ -200,6 +200,10 @@ fn refuse(job: &Job, group: &Group, error: EngineError) -> Failure {
     match error {
         EngineError::Plan(error) => Failure::input(format_args!("{}: {error}", job.cages[group.cage].name()))
             .with_hint("inspect says what the cage is made of"),
+        EngineError::TooLarge { .. } => Failure::input(format_args!("{}: {error}", job.cages[group.cage].name()))
+            .with_hint(
+                "frames are timed of cages that are on the device as a whole; render, check and export work in parts",
+            ),
         other => other.into(),
     }
 }
