@@ -2,7 +2,8 @@
 
 use glam::{DVec2, DVec3};
 use osculate::{
-    Cage, Camera, CapturedVertex, EngineError, GpuError, RenderDesc, Shade, Surface, SurfaceDesc, Tessellation, render,
+    Cage, Camera, CapturedVertex, EngineError, Evaluator, GpuError, RenderDesc, Shade, Surface, SurfaceDesc,
+    Tessellation, render,
 };
 use osculate_compare::Picture;
 use osculate_tests::picture::{camera, draw, draw_surfaces};
@@ -132,6 +133,24 @@ fn wireframe_lines_grow_with_the_level_and_fade_when_dense() {
     assert!(coarse > 0.02 && fine > 1.5 * coarse, "{coarse} {fine}");
     let dense = lines(32.0, [96, 80]);
     assert!(dense < 0.01, "{dense}");
+}
+
+/// Where triangles are so small that no line is left, what remains is the lit surface.
+#[test]
+fn the_surface_under_a_wireframe_is_lit() {
+    let gpu = gpu();
+    let cage = zoo::shipped("cube");
+    for evaluator in [Evaluator::Tessellator, Evaluator::Compute] {
+        let [lit, wire] = [Shade::Lit, Shade::Wireframe].map(|shade| {
+            let tessellation = Tessellation { evaluator, ..Tessellation::uniform(40.0) };
+            draw(&gpu, &cage, [48, 40], |desc| (desc.shade, desc.tessellation) = (shade, tessellation))
+        });
+        assert!(changed(&lit, &draw(&gpu, &cage, [48, 40], |desc| desc.shade = Shade::Normals)) > 200);
+        // Blending with nothing rounds.
+        let differs = |(a, b): (&[u8; 4], &[u8; 4])| a.iter().zip(b).any(|(a, b)| a.abs_diff(*b) > 1);
+        let pairs: Vec<([u8; 4], [u8; 4])> = lit.pixels().zip(wire.pixels()).collect();
+        assert_eq!(pairs.iter().filter(|(a, b)| differs((a, b))).count(), 0, "{evaluator:?}");
+    }
 }
 
 #[test]
