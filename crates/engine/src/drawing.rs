@@ -20,7 +20,7 @@ pub struct DrawingDesc {
     pub cage: bool,
     /// What it is drawn to.
     pub target: Target,
-    /// Which patches the tessellator leaves out.
+    /// What is left out because nothing of it is seen.
     pub culling: Culling,
     /// Where the first frame is seen from.
     pub camera: Camera,

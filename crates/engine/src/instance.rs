@@ -21,7 +21,7 @@ pub struct InstanceDesc<'a> {
     pub material: &'a Material,
     /// How finely, and by whom. Adaptive factors follow the view: of theirs, the pixels count alone.
     pub tessellation: Tessellation,
-    /// Which patches the tessellator leaves out.
+    /// What is left out because nothing of it is seen.
     pub culling: Culling,
     /// Buffers and images of the caller's for the fragment shader, at numbers from `BINDING_CALLER` (64) on.
     pub bindings: Bindings,

@@ -155,7 +155,7 @@ pub struct RenderDesc {
     pub cage: bool,
     /// Samples per pixel.
     pub samples: u32,
-    /// Which patches the tessellator leaves out.
+    /// What is left out because nothing of it is seen.
     pub culling: Culling,
     /// Background, linear RGBA, alpha not multiplied in.
     pub background: [f32; 4],

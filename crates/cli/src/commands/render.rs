@@ -82,8 +82,8 @@ struct LookArgs {
     #[arg(long, value_name = "N", value_parser = samples, allow_negative_numbers = true)]
     samples: Option<u32>,
 
-    /// Patches that are left out before they are tessellated. The picture stays the same, but for the backs.
-    #[arg(long, value_name = "PATCHES", default_value = "none")]
+    /// What is left out: patches before they are tessellated, and triangles that show their backs. The picture stays the same, but for the backs.
+    #[arg(long, value_name = "WHAT", default_value = "none")]
     cull: CullArg,
 
     /// Colour behind the surface: #RRGGBB, #RRGGBBAA, black, white or transparent. Default: dark grey.

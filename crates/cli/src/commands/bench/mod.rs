@@ -60,7 +60,7 @@ pub(crate) struct BenchArgs {
     #[arg(long)]
     limit: bool,
 
-    /// What to leave out, of the limit too: for pictures that stay the same.
+    /// What to leave out, of the limit too. The picture stays the same, but for the backs.
     #[arg(long, value_name = "WHAT", value_enum, default_value = "none")]
     cull: CullArg,
 
