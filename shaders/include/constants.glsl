@@ -25,7 +25,8 @@
 // The first bit of GridPatch.owned that stands for a side.
 #define GRID_OWNED_SIDES 4
 
-// PatchRecord.tag: the formula (bits 0..2), whether control points are stored (bit 3), boundary flag (bit 4), valence of corner 0 (from bit 8).
+// PatchRecord.tag: the formula (bits 0..2), whether control points are stored (bit 3), boundary flag (bit 4), whether side 0 is the first half of an edge
+// (bit 5), side 3 the second (bit 6), the patch an unrefined face (bit 7), valence of corner 0 (from bit 8).
 #define FORM_BICUBIC 0
 #define FORM_GREGORY 1
 #define FORM_STAM 2
@@ -34,7 +35,15 @@
 #define FORM_MASK 7
 #define TAG_STORED 8
 #define TAG_BOUNDARY 16
+#define TAG_HALF_0 32
+#define TAG_HALF_3 64
+#define TAG_UNREFINED 128
 #define TAG_VALENCE_SHIFT 8
+
+// Values of SIDES: each side is an edge with a record of its own; some are halves of an edge; each is the edge of an unrefined face.
+#define SIDES_PLAIN 0
+#define SIDES_HALVES 1
+#define SIDES_UNREFINED 2
 
 // FanRecord.cross_end (osculate_surface::gregory::CrossEnd)
 #define CROSS_END_PLAIN 0
@@ -85,5 +94,6 @@
 #define SPEC_ADAPTIVE 3
 #define SPEC_CULLS 4
 #define SPEC_MATERIAL 5
+#define SPEC_SIDES 6
 
 #endif

@@ -1,6 +1,7 @@
 // Interface of the tessellation evaluation stages: a stage includes this, its form, and says where control points come from. SPACING is the layout's spacing, DOMAIN its domain if not quads; with CAPTURE the outputs go to transform feedback, else there are those that SEES_POSITION, SEES_PATCH name; with MAPPED the surface has texture coordinates.
 #ifndef EVALUATION_STAGE_GLSL
 #define EVALUATION_STAGE_GLSL
+#define SIDES_IN_SEGMENTS
 #include "frame.glsl"
 #include "forms/form.glsl"
 #include "measure.glsl"

@@ -2,13 +2,19 @@
 #ifndef FACTORS_GLSL
 #define FACTORS_GLSL
 #include "edge_factor.glsl"
+#include "sides.glsl"
+
+// Factor of a side of a quad: that of its edge; or, an edge of an unrefined face being two of the others, twice as many segments.
+float side_factor(uint edge) {
+    return SIDES == SIDES_UNREFINED ? 2.0 * ceil(frame.level) : edge_factor(edge >> 1u);
+}
 
 // Writes gl_TessLevelOuter and gl_TessLevelInner of a patch. Vulkan's outer levels are those of u=0, v=0, u=1, v=1.
 void write_factors(uint patch_id) {
-    float f0 = edge_factor(patches[patch_id].edge[0] >> 1u);
-    float f1 = edge_factor(patches[patch_id].edge[1] >> 1u);
-    float f2 = edge_factor(patches[patch_id].edge[2] >> 1u);
-    float f3 = edge_factor(patches[patch_id].edge[3] >> 1u);
+    float f0 = side_factor(patches[patch_id].edge[0]);
+    float f1 = side_factor(patches[patch_id].edge[1]);
+    float f2 = side_factor(patches[patch_id].edge[2]);
+    float f3 = side_factor(patches[patch_id].edge[3]);
     gl_TessLevelOuter[0] = f3;
     gl_TessLevelOuter[1] = f0;
     gl_TessLevelOuter[2] = f1;

@@ -6,6 +6,7 @@
 #include "points.glsl"
 #include "coefficients.glsl"
 #include "bases/net.glsl"
+#define SIDES_DEFAULT SIDES_HALVES
 #include "forms/form.glsl"
 
 struct SampleRequest {

@@ -61,7 +61,7 @@ pub fn surface(engine: &Engine, cage: &Cage, boundary: Option<BoundaryRule>) -> 
 /// # Panics
 /// If it cannot be made.
 pub fn surface_of(engine: &Engine, cage: &Cage, scheme: Scheme, boundary: Option<BoundaryRule>) -> Option<Surface> {
-    match Surface::new(engine, cage, &SurfaceDesc { scheme, boundary }) {
+    match Surface::new(engine, cage, &SurfaceDesc { scheme, boundary, ..SurfaceDesc::default() }) {
         Ok(surface) => Some(surface),
         Err(EngineError::Plan(PlanError::NothingToDraw { .. })) => None,
         Err(error) => panic!("{error}"),

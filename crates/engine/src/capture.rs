@@ -87,7 +87,7 @@ impl Surface {
         tessellation: &Tessellation,
         mut sink: impl FnMut(&[CapturedVertex]) -> Result<(), E>,
     ) -> Result<(), E> {
-        let segments = tessellation.max_segments()?;
+        let segments = self.max_segments(tessellation)?;
         let device = self.engine().device();
         tessellation.check_evaluator(device)?;
         self.require_capture()?;

@@ -79,8 +79,8 @@ impl Output {
 /// computes all branches for every pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum PipelineKey {
-    /// Patches of a kind.
-    Patches { kind: PatchKind, division: Division, output: Output, mapped: bool },
+    /// Patches of a kind. `halves`: their sides may be halves of edges.
+    Patches { kind: PatchKind, halves: bool, division: Division, output: Output, mapped: bool },
     /// Vertices of the compute evaluator.
     Grid { output: Output, mapped: bool },
     /// Lines of the cage overlay: those in sight, or all, behind the surface too.
@@ -120,6 +120,15 @@ fn stages(kind: PatchKind) -> [String; 3] {
     ["patch/patch.vert".to_owned(), control, format!("patch/{name}.tese")]
 }
 
+/// What their sides are: a `SIDES_*` constant.
+fn sides(kind: PatchKind, halves: bool) -> u32 {
+    match kind {
+        PatchKind::Unrefined => constant::SIDES_UNREFINED,
+        _ if halves => constant::SIDES_HALVES,
+        _ => constant::SIDES_PLAIN,
+    }
+}
+
 /// Points per patch that the vertex stage hands over.
 fn patch_points(kind: PatchKind) -> u32 {
     kind.net_size().unwrap_or(1)
@@ -137,7 +146,9 @@ impl PipelineKey {
 
     pub(crate) fn make(self, engine: &Engine) -> Result<GraphicsPipeline, EngineError> {
         match self {
-            Self::Patches { kind, division, output, mapped } => make_patches(engine, kind, division, output, mapped),
+            Self::Patches { kind, halves, division, output, mapped } => {
+                make_patches(engine, (kind, halves), division, output, mapped)
+            }
             Self::Grid { output, mapped } => make_grid(engine, output, mapped),
             Self::Cage { target, hidden } => make_cage(engine, target, hidden),
         }
@@ -146,7 +157,7 @@ impl PipelineKey {
 
 fn make_patches(
     engine: &Engine,
-    kind: PatchKind,
+    (kind, halves): (PatchKind, bool),
     division: Division,
     output: Output,
     mapped: bool,
@@ -159,13 +170,14 @@ fn make_patches(
     let evaluation = engine.shader(&variant(&evaluation, &words))?;
     let material = output.material(engine)?;
     let fragment = fragment(engine, output, mapped)?;
-    let name = patches_name(kind, division, output) + mapped_name(mapped) + &material_name(&material);
+    let name = patches_name(kind, halves, division, output) + mapped_name(mapped) + &material_name(&material);
     let specialization = [
         (constant::SPEC_NET_SIZE, patch_points(kind)),
         (constant::SPEC_SHADE, output.shade()),
         (constant::SPEC_ADAPTIVE, division.adaptive.into()),
         (constant::SPEC_CULLS, division.culls.into()),
         (constant::SPEC_MATERIAL, material.is_some().into()),
+        (constant::SPEC_SIDES, sides(kind, halves)),
     ];
     let desc = GraphicsPipelineDesc {
         tessellation: Some(Stages { control: &control, evaluation: &evaluation, patch_points: patch_points(kind) }),
@@ -178,9 +190,11 @@ fn make_patches(
 }
 
 /// What tools call the pipeline of patches.
-fn patches_name(kind: PatchKind, division: Division, output: Output) -> String {
+fn patches_name(kind: PatchKind, halves: bool, division: Division, output: Output) -> String {
     let form = kind.form().name();
     let patches = match kind {
+        PatchKind::Unrefined => format!("{form} unrefined"),
+        PatchKind::Regular if halves => format!("{form} beside unrefined"),
         PatchKind::Regular => form.to_owned(),
         PatchKind::Extraordinary { valence, .. } => format!("{form} valence {valence}"),
         PatchKind::Stored { .. } => format!("{form} stored"),
@@ -321,8 +335,13 @@ pub(crate) fn runs(lists: &[PatchList], longest: u32) -> impl Iterator<Item = Ru
 impl Surface {
     /// The pipelines that its patches need, one for each kind present.
     pub(crate) fn pipelines(&self, division: Division, output: Output) -> impl Iterator<Item = PipelineKey> {
-        let mapped = self.is_mapped();
-        self.plan().lists.iter().map(move |list| PipelineKey::Patches { kind: list.kind, division, output, mapped })
+        self.plan().lists.iter().map(move |list| self.patches_key(list.kind, division, output))
+    }
+
+    fn patches_key(&self, kind: PatchKind, division: Division, output: Output) -> PipelineKey {
+        // Where a side is half an edge, the corner on the cage is regular, and so the patch.
+        let halves = kind == PatchKind::Regular && self.has_unrefined();
+        PipelineKey::Patches { kind, halves, division, output, mapped: self.is_mapped() }
     }
 
     /// The draw of a run of patches; `bindings` are those of the surface and the frame.
@@ -342,7 +361,7 @@ impl Surface {
             weights: list.weights,
             overshoot: overshoot(list, &self.plan().weights),
         };
-        let key = PipelineKey::Patches { kind: list.kind, division, output, mapped: self.is_mapped() };
+        let key = self.patches_key(list.kind, division, output);
         Ok(Draw {
             pipeline: self.engine().pipeline(key)?,
             bindings: bindings.clone(),
@@ -367,13 +386,16 @@ mod tests {
         let target = Target { color: Format::Rgba8Srgb, samples: 4 };
         let stam = PatchKind::Extraordinary { form: PatchForm::Stam, valence: 7 };
         assert_eq!(
-            patches_name(stam, plain(Spacing::Equal), Output::Fill(target, Shade::Zebra, Sides::Both)),
+            patches_name(stam, false, plain(Spacing::Equal), Output::Fill(target, Shade::Zebra, Sides::Both)),
             "stam valence 7, equal, fill zebra Rgba8Srgb x4"
         );
         let stored = PatchKind::Stored { form: PatchForm::Gregory };
-        assert_eq!(patches_name(stored, plain(Spacing::Odd), Output::Capture), "gregory stored, odd, capture");
+        assert_eq!(patches_name(stored, false, plain(Spacing::Odd), Output::Capture), "gregory stored, odd, capture");
         let culled = Division { adaptive: true, culls: true, ..plain(Spacing::Equal) };
-        assert_eq!(patches_name(stored, culled, Output::Capture), "gregory stored, equal adaptive, capture, culled");
+        assert_eq!(patches_name(stored, false, culled, Output::Capture), "gregory stored, equal adaptive, capture, culled");
+        let regular = [(PatchKind::Unrefined, false), (PatchKind::Regular, true)];
+        let names = regular.map(|(kind, halves)| patches_name(kind, halves, plain(Spacing::Equal), Output::Capture));
+        assert_eq!(names, ["regular unrefined, equal, capture", "regular beside unrefined, equal, capture"]);
     }
 
     #[test]

@@ -98,6 +98,14 @@ pub enum EngineError {
         /// The level asked for.
         level: f32,
     },
+    /// A surface of which faces are left unrefined was asked for what only others can do.
+    #[error(
+        "faces of the surface are left unrefined, which does not go with {what}: take Refinement::Everywhere (--refine everywhere) for that"
+    )]
+    Unrefined {
+        /// What it does not go with.
+        what: &'static str,
+    },
     /// A material does not go with what it is given.
     #[error("material {name:?}: {reason}")]
     Material {

@@ -257,7 +257,8 @@ impl Surface {
     /// How the edges are divided.
     pub(crate) fn grid_rates(&self, tessellation: &Tessellation) -> Result<GridRates, EngineError> {
         // Refuses levels out of range.
-        tessellation.max_segments()?;
+        self.max_segments(tessellation)?;
+        self.refuse_unrefined("the compute evaluator (--evaluator compute)")?;
         Ok(match tessellation.factors {
             Factors::Uniform(level) => GridRates::uniform(level, tessellation.spacing),
             Factors::Adaptive { .. } => GridRates::per_edge(&self.edge_factors(tessellation)?, tessellation.spacing),

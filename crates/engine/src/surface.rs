@@ -13,7 +13,7 @@ use osculate_subdiv::{Place, PlanDesc, SurfacePlan};
 use crate::buffers::SurfaceBuffers;
 use crate::kernels::Kernel;
 use crate::maps::Maps;
-use crate::{CageSpace, Engine, EngineError, Scheme};
+use crate::{CageSpace, Engine, EngineError, Refinement, Scheme};
 
 /// How to make a surface of a cage.
 #[derive(Clone, Copy, Debug, Default)]
@@ -22,6 +22,17 @@ pub struct SurfaceDesc {
     pub scheme: Scheme,
     /// Boundary rule; `None` takes that of the file's tags, else edge-and-corner.
     pub boundary: Option<BoundaryRule>,
+    /// Which faces are refined. Where some are left as they are, frames have fewer patches, but factors must be uniform, at most 32, and equally spaced; there are no
+    /// maps and no parts of cages.
+    pub refinement: Refinement,
+}
+
+impl SurfaceDesc {
+    /// How to plan its cage.
+    pub(crate) fn plan(&self) -> PlanDesc {
+        let Self { scheme, boundary, refinement } = *self;
+        PlanDesc { boundary, scheme, refinement }
+    }
 }
 
 /// A cage on the device, ready to be drawn. Clones share its tables and points, and so they move together.
@@ -45,7 +56,10 @@ impl Surface {
     /// # Errors
     /// If the cage is too large for 32-bit indices or for the device, no face is left to draw, or the device fails.
     pub fn new(engine: &Engine, cage: &Cage, desc: &SurfaceDesc) -> Result<Self, EngineError> {
-        let plan = SurfacePlan::build(cage, &PlanDesc { boundary: desc.boundary, scheme: desc.scheme })?;
+        let plan = SurfacePlan::build(cage, &desc.plan())?;
+        if desc.refinement != Refinement::Everywhere {
+            tracing::info!("{} of {} patches are unrefined faces", plan.unrefined_count(), plan.patches.len());
+        }
         Self::from_plan(engine, cage, plan, |_| true)
     }
 

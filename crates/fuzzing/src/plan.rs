@@ -61,7 +61,7 @@ fn repaired(desc: CageDesc, options: RepairDesc) -> std::result::Result<Cage, Ca
 
 fn check_plan(cage: &Cage, case: &Case) {
     let &Case { scheme, rule, .. } = case;
-    match SurfacePlan::build(cage, &PlanDesc { boundary: Some(rule), scheme }) {
+    match SurfacePlan::build(cage, &PlanDesc { boundary: Some(rule), scheme, ..PlanDesc::default() }) {
         Ok(plan) => {
             check_numbers(&plan);
             check_places(cage, &plan);

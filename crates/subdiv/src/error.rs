@@ -24,6 +24,11 @@ pub enum PlanError {
         /// Most numbers.
         limit: u64,
     },
+    /// Faces of parts of cages would be left unrefined.
+    #[error(
+        "a cage in parts is refined everywhere: take Refinement::Everywhere (--refine everywhere), or fewer, larger parts (--part-faces)"
+    )]
+    UnrefinedParts,
     /// Nothing is left to draw.
     #[error(
         "no face is left to draw: all {faces} faces are holes or touch the boundary under the boundary rule `none`; use --boundary edge-and-corner"

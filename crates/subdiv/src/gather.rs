@@ -33,6 +33,7 @@ impl PatchNets {
         for list in &lists {
             let (quads, nets) = (&order.quads[list.patches()], &mut nets[list.first_index as usize..]);
             match list.kind {
+                PatchKind::Unrefined => unrefined_nets(mesh, quads, nets),
                 PatchKind::Regular => regular_nets(mesh, quads, nets, &mut phantoms),
                 PatchKind::Extraordinary { valence, .. } => extraordinary_nets(mesh, valence, quads, nets),
                 PatchKind::Stored { .. } => stored_nets(mesh, quads, nets),
@@ -41,9 +42,10 @@ impl PatchNets {
         Self { lists, nets, stored, projections, phantoms }
     }
 
-    /// How many patches are regular; they come first.
+    /// How many patches are bicubic; they come first.
     pub(crate) fn regular_count(&self) -> u32 {
-        self.lists.first().filter(|list| list.kind == PatchKind::Regular).map_or(0, |list| list.count)
+        let regular = self.lists.iter().take_while(|list| list.kind.form() == PatchForm::Bicubic);
+        regular.map(|list| list.count).sum()
     }
 
     /// The list that a patch belongs to.
@@ -83,7 +85,7 @@ impl Layout {
             let (first_patch, count, first_index) = (patches.start, patches.len() as u32, layout.size);
             let mut list = PatchList { kind, first_patch, count, drawn: count, first_index, weights: 0 };
             match kind {
-                PatchKind::Regular => layout.size += 16 * count,
+                PatchKind::Unrefined | PatchKind::Regular => layout.size += 16 * count,
                 PatchKind::Extraordinary { form, valence } => {
                     list.weights = weights.offset(NetKind::Interior { valence }, Role::Patch(form));
                     layout.size += (2 * valence + 8) * count;
@@ -115,6 +117,12 @@ impl Layout {
             self.size += columns;
         }
     }
+}
+
+fn unrefined_nets<M: Connectivity>(mesh: &FinalMesh<'_, M>, quads: &[u32], nets: &mut [u32]) {
+    nets.par_chunks_exact_mut(16).zip(quads).with_min_len(1024).for_each(|(net, &quad)| {
+        net.copy_from_slice(&mesh.unrefined_net(quad));
+    });
 }
 
 /// Nets of the regular list: inner ones in parallel, those at the boundary one by one because they share phantom points.

@@ -20,6 +20,7 @@ mod scheme;
 mod spokes;
 mod tables;
 pub mod twin;
+mod unrefined;
 mod uv;
 mod weights;
 mod whole;
@@ -35,6 +36,7 @@ pub use records::MatrixSource;
 pub use scheme::{Scheme, UnknownScheme};
 pub use spokes::SpokeRecord;
 pub use tables::RefineTables;
+pub use unrefined::Refinement;
 pub use uv::{EdgeUv, UvTables};
 pub use whole::{FanRecord, GatheredEdge, GatheredPatch, Gathers};
 

@@ -72,12 +72,24 @@ impl PatchPoint {
 pub struct Locator {
     face_offsets: Vec<u32>,
     steps: u32,
+    /// Whether each face of the last mesh but one stays as it is; empty if none does.
+    unrefined: Vec<bool>,
 }
 
 impl Locator {
     /// For a cage refined `steps` times: 0 (quads and triangles only), 1 or 2.
     pub(crate) fn new(cage: &Cage, steps: u32) -> Self {
-        Self { face_offsets: cage.face_offsets().to_vec(), steps }
+        Self { face_offsets: cage.face_offsets().to_vec(), steps, unrefined: Vec::new() }
+    }
+
+    /// Takes note of the faces before the last step that it leaves as they are: the patch of such a face has the face's own (u,v).
+    pub(crate) fn leave(&mut self, unrefined: Vec<bool>) {
+        self.unrefined = unrefined;
+    }
+
+    /// Whether the last step leaves a face as it is.
+    fn is_left(&self, face: u32) -> bool {
+        self.unrefined.get(face as usize).copied().unwrap_or(false)
     }
 
     fn corners(&self, face: u32) -> u32 {
@@ -132,9 +144,12 @@ impl Locator {
         let first = quad >> (2 * (self.steps - 1));
         let face = self.face_of(first);
         let corner = first - self.face_offsets[face as usize];
+        if self.steps == 1 && self.is_left(face) {
+            return whole(face, -1);
+        }
         let child =
             if self.corners(face) == 4 { child_of(&whole(face, -1), corner) } else { whole(face, corner as i32) };
-        if self.steps == 2 { child_of(&child, quad & 3) } else { child }
+        if self.steps == 2 && !self.is_left(first) { child_of(&child, quad & 3) } else { child }
     }
 
     /// The point of a patch at (s,t) of a sub-face; `None` if there is no such sub-face.
@@ -152,12 +167,19 @@ impl Locator {
             return Some(if corners == 3 { in_triangle(face, sub_face.sub as usize, st) } else { whole });
         }
         let offset = self.face_offsets[face as usize];
+        if self.steps == 1 && self.is_left(face) {
+            return Some(PatchPoint { face: offset, ..whole });
+        }
         let first = if corners == 4 {
             into_child(whole, |corner| offset + corner)
         } else {
             PatchPoint { face: offset + sub_face.sub as u32, ..whole }
         };
-        Some(if self.steps == 2 { into_child(first, |corner| 4 * first.face + corner) } else { first })
+        Some(match self.steps {
+            2 if self.is_left(first.face) => PatchPoint { face: 4 * first.face, ..first },
+            2 => into_child(first, |corner| 4 * first.face + corner),
+            _ => first,
+        })
     }
 
     /// The sub-faces of a face, in order.
@@ -245,7 +267,7 @@ mod tests {
     /// A quad, a triangle and a pentagon.
     fn locator(steps: u32) -> Locator {
         let face_offsets = if steps == 0 { vec![0, 4, 7] } else { vec![0, 4, 7, 12] };
-        Locator { face_offsets, steps }
+        Locator { face_offsets, steps, unrefined: Vec::new() }
     }
 
     fn places(locator: &Locator) -> Vec<(SubFace, [f64; 2])> {

@@ -6,6 +6,7 @@ use std::iter::once;
 use osculate_surface::NetKind;
 
 use crate::patches::{PatchKind, Tag};
+use crate::unrefined::regular_face_net;
 use crate::{Connectivity, NONE};
 
 /// Points beyond the boundary that regular nets ask for, each once.
@@ -44,6 +45,8 @@ pub(crate) struct FinalMesh<'a, M> {
     /// The mesh before the last step, all quads but for a first step.
     pub(crate) old: &'a M,
     pub(crate) first_point: u32,
+    /// Index of the first old point in the point buffer.
+    pub(crate) first_old: u32,
     /// What each old vertex makes of the final quads about it.
     pub(crate) tags: Vec<Tag>,
 }
@@ -126,6 +129,11 @@ impl<M: Connectivity> FinalMesh<'_, M> {
         let [left_v, left_e1, left_o5] = self.left(quad);
         let corner = self.face(self.old.twin(self.old.next(self.old.twin(quad))));
         [corner, below_v, below_e0, below_o1, left_v, v, e0, o1, left_e1, e1, f, o2, left_o5, o5, o4, o3]
+    }
+
+    /// The 16 points of the face that a quad is a child of, if all corners of that are regular.
+    pub(crate) fn unrefined_net(&self, quad: u32) -> [u32; 16] {
+        regular_face_net(self.old, self.old.face(quad)).map(|vertex| self.first_old + vertex)
     }
 
     /// The 16 points of a regular quad with side 0 or side 3 or both on the boundary: points beyond it are phantoms.

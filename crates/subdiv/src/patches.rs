@@ -66,6 +66,8 @@ impl PatchForm {
 /// How the control points of a patch come about, and what it is evaluated by: one pipeline each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum PatchKind {
+    /// Face of the last mesh but one that is left as it is: bicubic B-spline patch with a 16-point net.
+    Unrefined,
     /// Bicubic B-spline patch with a 16-point net; at a boundary part of the net is phantom points.
     Regular,
     /// Net of 2n+8 points about an inner vertex of this valence, 3 to 12; the control stage changes the basis.
@@ -86,7 +88,7 @@ impl PatchKind {
     /// Formula.
     pub const fn form(self) -> PatchForm {
         match self {
-            Self::Regular => PatchForm::Bicubic,
+            Self::Unrefined | Self::Regular => PatchForm::Bicubic,
             Self::Extraordinary { form, .. } | Self::Stored { form } => form,
         }
     }
@@ -99,7 +101,7 @@ impl PatchKind {
     /// Points of the nets of this kind; those of stored patches differ.
     pub fn net_size(self) -> Option<u32> {
         match self {
-            Self::Regular => Some(16),
+            Self::Unrefined | Self::Regular => Some(16),
             Self::Extraordinary { valence, .. } => Some(2 * valence + 8),
             Self::Stored { .. } => None,
         }
@@ -135,7 +137,7 @@ impl PatchList {
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct PatchRecord {
-    /// Vertex record of each corner.
+    /// Vertex record of each corner; [`crate::NONE`] for the end of a half of an edge record ([`Self::is_half`]) that is the middle of the edge.
     pub vertex: [u32; 4],
     /// Edge record of each side, times two, plus one if the patch walks the edge against the record.
     pub edge: [u32; 4],
@@ -156,6 +158,12 @@ impl PatchRecord {
     pub const STORED: u32 = 8;
     /// Set in the tag if corner 0 or a side of the patch lies on the boundary.
     pub const BOUNDARY: u32 = 16;
+    /// Set in the tag if side 0 is the first half of an edge record: [`Self::is_half`].
+    pub const HALF_0: u32 = 32;
+    /// Set in the tag if side 3 is the second half of an edge record.
+    pub const HALF_3: u32 = 64;
+    /// Set in the tag of a patch that is an unrefined face.
+    pub const UNREFINED: u32 = 128;
     /// The valence of corner 0 begins at this bit of the tag (number of edges).
     pub const VALENCE_SHIFT: u32 = 8;
 
@@ -186,7 +194,22 @@ impl PatchRecord {
 
     /// Whether corner 0 is irregular, so that the patch is no bicubic.
     pub fn is_extraordinary(&self) -> bool {
-        self.kind() != PatchKind::Regular
+        self.kind().form() != PatchForm::Bicubic
+    }
+
+    /// Whether the patch is a face that is left unrefined.
+    pub fn is_unrefined(&self) -> bool {
+        self.kind() == PatchKind::Unrefined
+    }
+
+    /// Whether a side is half an edge of an unrefined face, and so half the edge record that its number stands for. Walked from its first corner to the next,
+    /// side 0 is the first half and side 3 the second: one end of either is corner 0, the other the middle of the edge.
+    pub fn is_half(&self, side: usize) -> bool {
+        match side {
+            0 => self.tag & Self::HALF_0 != 0,
+            3 => self.tag & Self::HALF_3 != 0,
+            _ => false,
+        }
     }
 }
 
@@ -198,6 +221,7 @@ impl Tag {
     fn new(kind: PatchKind, boundary: bool, valence: u32) -> Self {
         let flag = |set: bool, bit: u32| if set { bit } else { 0 };
         let bits = flag(kind.is_stored(), PatchRecord::STORED) | flag(boundary, PatchRecord::BOUNDARY);
+        let bits = bits | flag(kind == PatchKind::Unrefined, PatchRecord::UNREFINED);
         Self(kind.form().number() | bits | valence << PatchRecord::VALENCE_SHIFT)
     }
 
@@ -217,6 +241,7 @@ impl Tag {
         let form = PatchForm::from_number(self.0 & PatchRecord::FORM_MASK);
         match form {
             _ if self.0 & PatchRecord::STORED != 0 => PatchKind::Stored { form },
+            PatchForm::Bicubic if self.0 & PatchRecord::UNREFINED != 0 => PatchKind::Unrefined,
             PatchForm::Bicubic => PatchKind::Regular,
             _ => PatchKind::Extraordinary { form, valence: self.valence() },
         }

@@ -11,11 +11,12 @@ use crate::nets::FinalMesh;
 use crate::part::FaceSizes;
 use crate::patches::{LIST_VALENCES, Tag};
 use crate::records::{RecordSources, assign};
+use crate::unrefined::unrefined_faces;
 use crate::weights::WeightTable;
 use crate::whole;
 use crate::{
-    Connectivity, Gathers, Locator, PatchForm, PatchList, PatchRecord, PlanError, ProjectionSource, QuadConnectivity,
-    RefineTables, Scheme, SpokeRecord,
+    Connectivity, Gathers, Locator, PatchForm, PatchKind, PatchList, PatchRecord, PlanError, ProjectionSource,
+    QuadConnectivity, RefineTables, Refinement, Scheme, SpokeRecord,
 };
 
 /// How to plan a cage.
@@ -25,6 +26,8 @@ pub struct PlanDesc {
     pub boundary: Option<BoundaryRule>,
     /// Scheme of the patches at extraordinary vertices.
     pub scheme: Scheme,
+    /// Which faces are refined.
+    pub refinement: Refinement,
 }
 
 /// The plan of a cage: tables of its refinement steps, patches of the final mesh, sources of records.
@@ -51,9 +54,9 @@ pub struct SurfacePlan {
     pub nets: Vec<u32>,
     /// What the shaders know of each patch.
     pub patches: Vec<PatchRecord>,
-    /// Final quad of each patch.
+    /// Final quad of each patch; of an unrefined face the one at its first corner.
     pub quads: Vec<u32>,
-    /// Patch of each final quad, [`crate::NONE`] if it is not drawn.
+    /// Patch of each final quad, [`crate::NONE`] if it is not drawn. The four children that an unrefined face would have name the same patch.
     pub patch_of_quad: Vec<u32>,
     /// Matrices of changes of basis and records, and functions of eigenbases.
     pub weights: Vec<f32>,
@@ -84,21 +87,24 @@ impl SurfacePlan {
         let rule = desc.boundary.or(cage.boundary_rule()).unwrap_or_default();
         let drawn = cage.drawn_faces(rule);
         let quads_and_triangles = (0..cage.face_count()).all(|f| matches!(cage.face(f).len(), 3 | 4));
-        Self::build_drawn(cage, (rule, desc.scheme), FaceSizes { quads: cage.is_quads(), quads_and_triangles }, &drawn)
+        Self::build_drawn(cage, (rule, desc), FaceSizes { quads: cage.is_quads(), quads_and_triangles }, &drawn)
     }
 
     /// Plans a part of a cage, of which its own faces are drawn. Everything that is computed for them, on the borders to other parts too, is what it is in a plan
     /// of the whole cage, bit for bit.
     ///
     /// # Errors
-    /// As [`Self::build`].
+    /// As [`Self::build`], and if the rest of the cage, which it must agree with, may be refined otherwise: [`Refinement::WhereNeeded`].
     pub fn build_part(part: &CagePart, desc: &PlanDesc) -> Result<Self, PlanError> {
+        if desc.refinement != Refinement::Everywhere && desc.scheme != Scheme::Gregory1 {
+            return Err(PlanError::UnrefinedParts);
+        }
         let cage = part.cage();
         let rule = desc.boundary.or(cage.boundary_rule()).unwrap_or_default();
         let mut drawn = cage.drawn_faces(rule);
         (0..).zip(&mut drawn).for_each(|(f, drawn)| *drawn &= part.ring(f) <= 1);
         let sizes = FaceSizes { quads: part.is_of_quads(), quads_and_triangles: part.is_of_quads_and_triangles() };
-        let mut plan = Self::build_drawn(cage, (rule, desc.scheme), sizes, &drawn)?;
+        let mut plan = Self::build_drawn(cage, (rule, desc), sizes, &drawn)?;
         // Quads among other faces run through the kernel of those.
         plan.levels.iter_mut().take(1).for_each(|level| level.quads &= sizes.quads);
         plan.set_apart(part);
@@ -111,14 +117,14 @@ impl SurfacePlan {
     /// Plans those faces of a cage that are to be drawn; `sizes` are those of the cage that it is a part of.
     fn build_drawn(
         cage: &Cage,
-        (rule, scheme): (BoundaryRule, Scheme),
+        (rule, desc): (BoundaryRule, &PlanDesc),
         sizes: FaceSizes,
         drawn: &[bool],
     ) -> Result<Self, PlanError> {
         if !drawn.contains(&true) {
             return Err(PlanError::NothingToDraw { faces: cage.face_count() });
         }
-        if scheme == Scheme::Gregory1 {
+        if desc.scheme == Scheme::Gregory1 {
             return whole::build(cage, rule, u32::from(!sizes.quads_and_triangles), drawn);
         }
         let steps = if sizes.quads { 1 } else { 2 };
@@ -126,28 +132,34 @@ impl SurfacePlan {
         let (base, locator) = (cage.topology(), Locator::new(cage, steps));
         let tables = RefineTables::build(base, rule, 0);
         if steps == 1 {
-            return Self::finish(base, vec![tables], (rule, scheme), locator, |quad| drawn[base.face(quad) as usize]);
+            return Self::finish(base, vec![tables], (rule, desc), locator, |quad| drawn[base.face(quad) as usize]);
         }
         let mesh = QuadConnectivity::refine(base);
         let second = RefineTables::build(&mesh, rule, tables.first_new);
         let levels = vec![tables, second];
-        Self::finish(&mesh, levels, (rule, scheme), locator, |quad| drawn[base.face(quad / 4) as usize])
+        Self::finish(&mesh, levels, (rule, desc), locator, |quad| drawn[base.face(quad / 4) as usize])
     }
 
     /// Plans the patches of the mesh after one step on `mesh`, the last of `levels`.
     fn finish<M: Connectivity>(
         mesh: &M,
         levels: Vec<RefineTables>,
-        (rule, scheme): (BoundaryRule, Scheme),
-        locator: Locator,
+        (rule, desc): (BoundaryRule, &PlanDesc),
+        mut locator: Locator,
         is_drawn: impl Fn(u32) -> bool + Sync,
     ) -> Result<Self, PlanError> {
-        let vertices = mesh.vertex_count() as u32;
+        let (vertices, scheme) = (mesh.vertex_count() as u32, desc.scheme);
         let tags: Vec<Tag> = (0..vertices).into_par_iter().map(|v| Tag::of_vertex(mesh, rule, scheme, v)).collect();
         check_nets(&tags, scheme)?;
         let first_point = levels.last().map_or(0, |level| level.first_new);
-        let mesh = FinalMesh { old: mesh, first_point, tags };
-        let order = PatchOrder::new(&mesh, is_drawn);
+        let unrefined = match desc.refinement {
+            Refinement::Everywhere => Vec::new(),
+            Refinement::WhereNeeded => unrefined_faces(mesh, &is_drawn),
+        };
+        let first_old = levels.last().map_or(0, |level| level.first_old);
+        let mesh = FinalMesh { old: mesh, first_point, first_old, tags };
+        let order = PatchOrder::new(&mesh, is_drawn, &unrefined);
+        locator.leave(unrefined);
         let mut weights = WeightTable::default();
         let nets = PatchNets::gather(&mesh, &order, &mut weights);
         let mut projections = nets.projections.clone();
@@ -183,6 +195,11 @@ impl SurfacePlan {
     /// final quad is one. Under [`Scheme::Gregory1`] none for cages of quads and triangles, else one.
     pub fn steps(&self) -> u32 {
         self.steps
+    }
+
+    /// How many patches are faces that are left unrefined: none under [`Refinement::Everywhere`].
+    pub fn unrefined_count(&self) -> u32 {
+        self.lists.first().filter(|list| list.kind == PatchKind::Unrefined).map_or(0, |list| list.count)
     }
 
     /// Number of edge records: of regular nets, of other nets, gathered.

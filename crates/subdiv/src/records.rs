@@ -10,7 +10,7 @@ use crate::projections::Projections;
 use crate::rank::RankedSet;
 use crate::spokes::{SpokeRecord, SpokeSide, spoke_records};
 use crate::weights::{Role, WeightTable};
-use crate::{Connectivity, NONE, PatchKind, PatchRecord};
+use crate::{Connectivity, NONE, PatchForm, PatchKind, PatchRecord};
 
 /// A matrix of weights times a net (`MatrixSource` in shaders/include/sources.glsl).
 #[repr(C)]
@@ -69,7 +69,7 @@ pub(crate) fn assign<M: Connectivity>(
     let first_general = edge_slots.partition_point(|&slot| slot < 4 * first_irregular);
     let sides: Vec<_> = edge_slots[first_general..].iter().map(|&slot| spoke_side(&slots, nets, slot)).collect();
     let spokes = spoke_records(&sides, weights, projections);
-    let is_boundary = |&slot: &u32| slots.twin(slots.quad(slot), slot % 4) == NONE;
+    let is_boundary = |&slot: &u32| slots.twin(slot) == NONE;
     let boundary_edges = edge_slots.par_iter().map(is_boundary).collect();
     let regular = |mut slots: Vec<u32>| {
         slots.truncate(slots.partition_point(|&slot| slot < 4 * first_irregular));
@@ -104,26 +104,54 @@ impl<M: Connectivity> Slots<'_, M> {
         }
     }
 
-    /// The slot on the other side of an edge of a quad, [`NONE`] where nothing is drawn there.
-    fn twin(&self, quad: u32, side: u32) -> u32 {
-        let old = self.mesh.old;
+    fn is_unrefined(&self, patch: u32) -> bool {
+        patch < self.order.unrefined
+    }
+
+    /// The slot of the side that an old half-edge is, if its face is left unrefined.
+    fn unrefined(&self, h: u32) -> Option<u32> {
+        let patch = *self.order.patch_of_quad.get(h as usize)?;
+        self.is_unrefined(patch).then(|| 4 * patch + (h - self.order.quads[patch as usize]))
+    }
+
+    /// The slot on the other side of an edge of a patch, [`NONE`] where nothing is drawn there. Beyond an unrefined face that is the first half of the edge.
+    fn twin(&self, slot: u32) -> u32 {
+        let (old, quad, side) = (self.mesh.old, self.quad(slot), slot % 4);
+        if self.is_unrefined(slot / 4) {
+            let beyond = old.twin(quad + side);
+            return self.unrefined(beyond).unwrap_or_else(|| self.of(beyond, 0));
+        }
         match side {
             0 => match old.twin(quad) {
                 NONE => NONE,
-                twin => self.of(old.next(twin), 3),
+                twin => self.unrefined(twin).unwrap_or_else(|| self.of(old.next(twin), 3)),
             },
             1 => self.of(old.next(quad), 2),
             2 => self.of(old.prev(quad), 1),
-            _ => self.of(old.twin(old.prev(quad)), 0),
+            _ => {
+                let twin = old.twin(old.prev(quad));
+                self.unrefined(twin).unwrap_or_else(|| self.of(twin, 0))
+            }
         }
     }
 
-    fn twins(&self, quad: u32) -> [u32; 4] {
-        [0, 1, 2, 3].map(|side| self.twin(quad, side))
+    fn twins(&self, patch: u32) -> [u32; 4] {
+        [0, 1, 2, 3].map(|side| self.twin(4 * patch + side))
+    }
+
+    /// The tag of a patch.
+    fn tag(&self, patch: u32) -> u32 {
+        let (old, quad) = (self.mesh.old, self.order.quads[patch as usize]);
+        if self.is_unrefined(patch) {
+            return PatchRecord::tag_of(PatchKind::Unrefined, false, 4);
+        }
+        let flag = |h: u32, bit: u32| if self.unrefined(h).is_some() { bit } else { 0 };
+        let halves = flag(old.twin(quad), PatchRecord::HALF_0) | flag(old.twin(old.prev(quad)), PatchRecord::HALF_3);
+        self.mesh.tag(quad).0 | halves
     }
 }
 
-/// Which slot owns each point of the final mesh: the lowest of those that share it.
+/// Which slot owns each point of the final mesh: the lowest of those that share it. Points on the sides of unrefined faces have none, but for the corners.
 struct PointOwners {
     face_points: Vec<u32>,
     edge_points: Vec<u32>,
@@ -133,13 +161,20 @@ struct PointOwners {
 impl PointOwners {
     fn new<M: Connectivity>(slots: &Slots<'_, M>) -> Self {
         let old = slots.mesh.old;
-        let at_face = |f| old.face_half_edges(f).map(|h| slots.of(h, 2)).min();
+        let at_face = |f| {
+            let quads = old.face_half_edges(f);
+            if slots.unrefined(quads.start).is_some() { None } else { quads.map(|h| slots.of(h, 2)).min() }
+        };
         let at_edge = |e| {
             let h = old.edge_half_edge(e);
-            let sides = [h, old.twin(h)].into_iter().filter(|&side| side != NONE);
+            let sides = || [h, old.twin(h)].into_iter().filter(|&side| side != NONE);
+            if sides().any(|side| slots.unrefined(side).is_some()) {
+                return None;
+            }
+            let sides = sides();
             sides.map(|h| slots.of(h, 1).min(slots.of(old.next(h), 3))).min()
         };
-        let at_vertex = |v| old.ring(v).map(|h| slots.of(h, 0)).min();
+        let at_vertex = |v| old.ring(v).map(|h| slots.unrefined(h).unwrap_or_else(|| slots.of(h, 0))).min();
         Self {
             face_points: owners(old.face_count(), at_face),
             edge_points: owners(old.edge_count(), at_edge),
@@ -147,8 +182,12 @@ impl PointOwners {
         }
     }
 
-    /// Owners of the four vertices of a quad.
-    fn corners(&self, old: &impl Connectivity, quad: u32) -> [u32; 4] {
+    /// Owners of the four vertices of a patch.
+    fn corners<M: Connectivity>(&self, slots: &Slots<'_, M>, patch: u32) -> [u32; 4] {
+        let (old, quad) = (slots.mesh.old, slots.order.quads[patch as usize]);
+        if slots.is_unrefined(patch) {
+            return [0, 1, 2, 3].map(|corner| self.vertex_points[old.origin(quad + corner) as usize]);
+        }
         [
             self.vertex_points[old.origin(quad) as usize],
             self.edge_points[old.edge(quad) as usize],
@@ -173,12 +212,13 @@ struct Owned<'a, M> {
 impl<'a, M: Connectivity> Owned<'a, M> {
     fn new(slots: &'a Slots<'a, M>) -> Self {
         let points = PointOwners::new(slots);
-        let word = |(i, quads): (usize, &[u32])| {
+        let count = slots.order.quads.len() as u32;
+        let word = |i: u32| {
             let (mut vertices, mut edges) = (0, 0);
-            for (bit, &quad) in (0..64).step_by(4).zip(quads) {
-                let (corners, twins) = (points.corners(slots.mesh.old, quad), slots.twins(quad));
+            for (bit, patch) in (0..64).step_by(4).zip(16 * i..count.min(16 * i + 16)) {
+                let (corners, twins) = (points.corners(slots, patch), slots.twins(patch));
                 for k in 0..4 {
-                    let slot = 64 * i as u32 + bit + k;
+                    let slot = 64 * i + bit + k;
                     vertices |= u64::from(corners[k as usize] == slot) << (bit + k);
                     edges |= u64::from(slot < twins[k as usize]) << (bit + k);
                 }
@@ -186,7 +226,7 @@ impl<'a, M: Connectivity> Owned<'a, M> {
             (vertices, edges)
         };
         let (vertices, edges): (Vec<u64>, Vec<u64>) =
-            slots.order.quads.par_chunks(16).enumerate().with_min_len(64).map(word).unzip();
+            (0..count.div_ceil(16)).into_par_iter().with_min_len(64).map(word).unzip();
         Self { slots, points, vertices: RankedSet::new(vertices), edges: RankedSet::new(edges) }
     }
 
@@ -195,22 +235,25 @@ impl<'a, M: Connectivity> Owned<'a, M> {
         if slot < twin { 2 * self.edges.rank(slot) } else { 2 * self.edges.rank(twin) + 1 }
     }
 
+    /// Number of the record of a vertex with an owner.
+    fn vertex_record(&self, owner: u32) -> u32 {
+        if owner == NONE { NONE } else { self.vertices.rank(owner) }
+    }
+
     fn patch_records(&self, nets: &PatchNets) -> Vec<PatchRecord> {
-        let Slots { mesh, order } = self.slots;
-        let mut patches = Vec::with_capacity(order.quads.len());
+        let mut patches = Vec::with_capacity(self.slots.order.quads.len());
         for list in &nets.lists {
             patches.par_extend((0..list.count).into_par_iter().map(|i| {
                 let patch = list.first_patch + i;
-                let quad = order.quads[patch as usize];
-                let twins = self.slots.twins(quad);
+                let twins = self.slots.twins(patch);
                 let (net, basis, net_size) = nets.shape(list, i);
                 PatchRecord {
-                    vertex: self.points.corners(mesh.old, quad).map(|owner| self.vertices.rank(owner)),
+                    vertex: self.points.corners(self.slots, patch).map(|owner| self.vertex_record(owner)),
                     edge: [0, 1, 2, 3].map(|k| self.edge_record(4 * patch + k, twins[k as usize])),
                     net,
                     basis,
                     net_size,
-                    tag: mesh.tag(quad).0,
+                    tag: self.slots.tag(patch),
                 }
             }));
         }
@@ -226,7 +269,7 @@ fn general_sources<M: Connectivity>(
 ) -> (Vec<MatrixSource>, Vec<MatrixSource>) {
     let Slots { mesh, order } = owned.slots;
     let (mut vertices, mut edges) = (Vec::new(), Vec::new());
-    for list in nets.lists.iter().filter(|list| list.kind != PatchKind::Regular) {
+    for list in nets.lists.iter().filter(|list| list.kind.form() != PatchForm::Bicubic) {
         for i in 0..list.count {
             let patch = list.first_patch + i;
             let (net, columns) = nets.net(list, i);
@@ -256,7 +299,7 @@ fn spoke_side<M: Connectivity>(slots: &Slots<'_, M>, nets: &PatchNets, slot: u32
         spoke.then(|| SpokeSide { kind, form: list.kind.form(), side, net: nets.net(list, patch - list.first_patch) })
     };
     let own = side_of(slot)?;
-    match slots.twin(slots.quad(slot), slot % 4) {
+    match slots.twin(slot) {
         twin if own.side == 3 && twin != NONE => side_of(twin),
         _ => Some(own),
     }

@@ -136,7 +136,7 @@ fn parts_are_the_whole_bit_for_bit() {
         let rules = [BoundaryRule::EdgeAndCorner, BoundaryRule::EdgeOnly, BoundaryRule::None];
         for &rule in if is_open { &rules[..] } else { &rules[..1] } {
             for &scheme in Scheme::ALL {
-                let desc = PlanDesc { boundary: Some(rule), scheme };
+                let desc = PlanDesc { boundary: Some(rule), scheme, ..PlanDesc::default() };
                 let Some((whole, parts)) = computed(&cage, &desc, CagePart::RINGS, count) else { continue };
                 assert_eq!(differences(&whole, &parts), 0, "{name}, {scheme}, {rule:?}");
             }
@@ -149,7 +149,7 @@ fn parts_are_the_whole_bit_for_bit() {
 fn one_part_is_the_plan_of_the_cage() {
     for (name, cage, _) in cages().into_iter().take(6) {
         for &scheme in Scheme::ALL {
-            let desc = PlanDesc { boundary: None, scheme };
+            let desc = PlanDesc { scheme, ..PlanDesc::default() };
             let all: Vec<u32> = (0..cage.face_count() as u32).collect();
             let part = SurfacePlan::build_part(&CagePart::cut(&cage, &all, 0), &desc).unwrap();
             let plan = SurfacePlan::build(&cage, &desc).unwrap();
@@ -169,7 +169,7 @@ fn one_part_is_the_plan_of_the_cage() {
 fn a_ring_less_is_noticed() {
     let (_, cage, count) = cages().into_iter().find(|(name, ..)| name == "twohole").unwrap();
     for &scheme in Scheme::ALL {
-        let desc = PlanDesc { boundary: None, scheme };
+        let desc = PlanDesc { scheme, ..PlanDesc::default() };
         let (whole, parts) = computed(&cage, &desc, CagePart::RINGS, count).unwrap();
         assert_eq!(differences(&whole, &parts), 0, "{scheme}");
         let rings = if scheme == Scheme::Gregory1 { 1 } else { 0 };

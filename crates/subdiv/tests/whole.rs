@@ -13,7 +13,7 @@ const GREGORY: PatchKind = PatchKind::Stored { form: PatchForm::Gregory };
 const TRIANGLE: PatchKind = PatchKind::Stored { form: PatchForm::Triangle };
 
 fn plan(cage: &Cage, rule: BoundaryRule) -> Result<SurfacePlan, PlanError> {
-    SurfacePlan::build(cage, &PlanDesc { boundary: Some(rule), scheme: Scheme::Gregory1 })
+    SurfacePlan::build(cage, &PlanDesc { boundary: Some(rule), scheme: Scheme::Gregory1, ..PlanDesc::default() })
 }
 
 fn cages() -> Vec<(String, Cage)> {

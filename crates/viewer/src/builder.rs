@@ -240,7 +240,7 @@ impl Workshop {
             Some(at) => at,
             None => {
                 self.progress(&format!("planning {scheme}"));
-                let mut surface = Surface::new(engine, cage, &SurfaceDesc { scheme, boundary: None })?;
+                let mut surface = Surface::new(engine, cage, &SurfaceDesc { scheme, ..SurfaceDesc::default() })?;
                 if let Some(dress) = &self.dress {
                     surface = dress.apply(surface, cage, &wanted.file, wanted.shade).map_err(Stop::Failed)?;
                 }

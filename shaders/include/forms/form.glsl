@@ -2,6 +2,7 @@
 #ifndef FORM_GLSL
 #define FORM_GLSL
 #include "records.glsl"
+#include "side_parameter.glsl"
 
 // A point of a patch away from its sides.
 struct InnerPoint {
@@ -33,7 +34,7 @@ SurfacePoint side_point(uint id, uint side, vec2 uv);
 // The shared point at (u,v) on a side of a patch, corners excepted, from the cubic record of the edge.
 SurfacePoint cubic_side_point(uint id, uint side, vec2 uv) {
     uint edge = patches[id].edge[side];
-    return edge_record_at(edge >> 1u, edge_parameter(side, edge & 1u, uv));
+    return edge_record_at(edge >> 1u, side_parameter(id, side, edge & 1u, uv));
 }
 
 // The shared point at (u,v), if (u,v) is on an edge or a corner of the patch.
@@ -42,7 +43,7 @@ bool shared_point(uint id, vec2 uv, out SurfacePoint point) {
     if (side == 4u) {
         return false;
     }
-    uint corner = corner_of(uv);
+    uint corner = recorded_corner(id, uv, side);
     if (corner != 4u) {
         point = vertex_record_point(patches[id].vertex[corner]);
     } else {

@@ -35,7 +35,7 @@ fn the_zoo_is_watertight_in_parts() {
             let Some(whole) = surface_of(&gpu, &specimen.cage, scheme, boundary) else { continue };
             let tessellation =
                 Tessellation { spacing: Spacing::Odd, evaluator, ..Tessellation::uniform([2.6, 3.0][turn % 2]) };
-            let mut parts = parts(&gpu, &specimen.cage, SurfaceDesc { scheme, boundary });
+            let mut parts = parts(&gpu, &specimen.cage, SurfaceDesc { scheme, boundary, ..SurfaceDesc::default() });
             let report = parts.check(&tessellation).unwrap();
             let expected = check(&whole, &tessellation).unwrap();
             assert!(report.is_watertight(), "{}, {scheme}, {boundary:?}: {report:?}", specimen.name);
@@ -46,7 +46,7 @@ fn the_zoo_is_watertight_in_parts() {
 
 /// Asserts that the picture of the parts has the bits of that of the whole.
 fn assert_same_picture(engine: &Engine, cage: &Cage, scheme: Scheme, desc: &RenderDesc) {
-    let surface = SurfaceDesc { scheme, boundary: None };
+    let surface = SurfaceDesc { scheme, ..SurfaceDesc::default() };
     let whole = Surface::new(engine, cage, &surface).unwrap();
     let expected = render(engine, &[&whole], desc).unwrap();
     let mut parts = parts(engine, cage, surface);
@@ -93,7 +93,7 @@ fn sabotaged(cage: &Cage, other: &Cage, rings: u8, scheme: Scheme) -> CheckRepor
     let mut proof = PartsProof::new(cage, None);
     for (i, own) in sets.iter().enumerate() {
         let part = CagePart::cut(if i == 0 { other } else { cage }, own, rings);
-        let part = Part::new(&gpu, part, &SurfaceDesc { scheme, boundary: None }).unwrap();
+        let part = Part::new(&gpu, part, &SurfaceDesc { scheme, ..SurfaceDesc::default() }).unwrap();
         proof.add(&part, part.surface(), &Tessellation::uniform(3.0)).unwrap();
     }
     proof.finish()

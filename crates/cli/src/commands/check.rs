@@ -5,7 +5,7 @@ use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
 use crate::input::InputArgs;
 use crate::options::{
-    CameraArgs, DisplaceArgs, DrawEvaluator, Level, Maps, PartsArgs, Pixels, SchemeChoice, SpacingArg,
+    CameraArgs, DisplaceArgs, DrawEvaluator, Level, Maps, PartsArgs, Pixels, RefineArg, SchemeChoice, SpacingArg,
 };
 use crate::progress::Progress;
 use crate::stdout;
@@ -37,6 +37,10 @@ pub(crate) struct CheckArgs {
     /// Schemes to prove.
     #[arg(long, alias = "scheme", value_name = "SCHEMES", help = SchemeChoice::help(), value_delimiter = ',', default_value = "all")]
     schemes: Vec<SchemeChoice>,
+
+    /// Which faces of the cage are refined.
+    #[arg(long, value_name = "FACES", default_value = "everywhere")]
+    refine: RefineArg,
 
     /// Levels to prove: segments per patch edge, real numbers from 1 to 64.
     #[arg(
@@ -92,6 +96,7 @@ Examples:
 pub(crate) struct Job {
     input: InputArgs,
     schemes: Vec<Scheme>,
+    refine: RefineArg,
     fineness: Fineness,
     spacing: SpacingArg,
     evaluator: DrawEvaluator,
@@ -116,6 +121,7 @@ impl CheckArgs {
     pub(crate) fn validate(self) -> Result<Job, Failure> {
         Ok(Job {
             schemes: SchemeChoice::schemes(&self.schemes)?,
+            refine: self.refine,
             input: self.input,
             fineness: match self.adaptive {
                 Some(pixels) => Fineness::Adaptive { pixels, orbit: self.orbit },
@@ -140,7 +146,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     with_engine(global, |engine: &Engine| {
         let mut watertight = true;
         for &scheme in &job.schemes {
-            let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
+            let desc = SurfaceDesc { scheme, boundary: Some(input.boundary), refinement: job.refine.into() };
             let made = WholeOrParts::new(engine, &input.cage, &job.parts.desc(desc));
             let mut finish = |case, report: &CheckReport| {
                 watertight &= report.is_watertight();

@@ -116,7 +116,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
     job.warn_of_coarse_numbers(input.cage.bounds());
     let tessellation = job.tessellation.tessellation(&job.camera, input.cage.bounds())?;
     let maps = job.displace.load(&input.cage)?;
-    let desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary) };
+    let desc = SurfaceDesc { scheme: job.scheme, boundary: Some(input.boundary), ..SurfaceDesc::default() };
     with_engine(global, |engine: &Engine| {
         let made = WholeOrParts::new(engine, &input.cage, &job.parts.desc(desc));
         let surface = made.map_err(|error| job.input.refuse(error))?;

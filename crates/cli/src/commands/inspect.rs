@@ -113,7 +113,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
 impl Findings {
     fn new(cage: &Cage, boundary: BoundaryRule) -> Self {
         let plan = |&scheme: &Scheme| {
-            let plan = SurfacePlan::build(cage, &PlanDesc { boundary: Some(boundary), scheme })?;
+            let plan = SurfacePlan::build(cage, &PlanDesc { boundary: Some(boundary), scheme, ..PlanDesc::default() })?;
             Ok((scheme.name(), SchemePlan::new(&plan)))
         };
         let (schemes, not_drawn) = match Scheme::ALL.iter().map(plan).collect::<Result<_, PlanError>>() {
@@ -205,6 +205,7 @@ fn as_map<S: Serializer>(pairs: &[(String, u32)], serializer: S) -> Result<S::Ok
 
 fn kind_name(kind: PatchKind) -> String {
     match kind {
+        PatchKind::Unrefined => "unrefined".into(),
         PatchKind::Regular => "regular".into(),
         PatchKind::Extraordinary { form, valence } => format!("{}_valence_{valence}", form.name()),
         PatchKind::Stored { form } => format!("{}_stored", form.name()),

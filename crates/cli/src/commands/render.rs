@@ -5,7 +5,7 @@ use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
 use crate::input::InputArgs;
 use crate::options::{
-    AnimationArgs, CameraArgs, Colour, CullArg, DisplaceArgs, Maps, NumberedPath, Output, PartsArgs, SchemeName,
+    AnimationArgs, CameraArgs, Colour, CullArg, DisplaceArgs, Maps, NumberedPath, Output, PartsArgs, RefineArg, SchemeName,
     TessellationArgs,
 };
 use crate::progress::Progress;
@@ -33,6 +33,10 @@ pub(crate) struct RenderArgs {
     /// How the surface is put together.
     #[arg(long, alias = "schemes", value_name = "SCHEME", default_value = "gregory2", help = SchemeName::help())]
     scheme: SchemeName,
+
+    /// Which faces of the cage are refined.
+    #[arg(long, value_name = "FACES", default_value = "everywhere")]
+    refine: RefineArg,
 
     #[command(flatten)]
     look: LookArgs,
@@ -176,6 +180,7 @@ pub(crate) struct Job {
     /// Where the pictures of a sequence go.
     numbered: Option<NumberedPath>,
     scheme: Scheme,
+    refine: RefineArg,
     /// What the shade difference compares with.
     against: Option<Scheme>,
     /// What the shade textured shows, if not the model's own material.
@@ -196,6 +201,7 @@ impl RenderArgs {
             numbered,
             output: Output::new(self.output, &[("png", ())])?.apart_from([self.input.file.as_path()])?,
             scheme: self.scheme.in_this_build()?,
+            refine: self.refine,
             against: self.look.against()?,
             texture: self.look.texture()?,
             input: self.input,

@@ -140,7 +140,7 @@ pub(crate) fn run(job: &Job, global: &GlobalArgs) -> Result<Verdict, Failure> {
             write_rows(path, &input.cage, places, &|places| exact.evaluate(places), global)?;
         }
         Evaluator::Device(scheme) => with_engine(global, |engine| {
-            let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
+            let desc = SurfaceDesc { scheme, boundary: Some(input.boundary), ..SurfaceDesc::default() };
             let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| job.input.refuse(error))?;
             write_rows(path, &input.cage, places, &|places| Ok(surface.sample(places)?), global)
         })?,

@@ -90,6 +90,7 @@ impl Surface {
     /// If the cage is not the surface's.
     pub fn with_maps(&self, cage: &Cage, desc: &MapsDesc<'_>) -> Result<Self, EngineError> {
         let uv = cage.uv().ok_or(EngineError::NoUv)?;
+        self.refuse_unrefined("texture coordinates (--displace, --texture)")?;
         let place = |uv: DVec2| match desc.origin {
             UvOrigin::Bottom => DVec2::new(uv.x, 1.0 - uv.y),
             UvOrigin::Top => uv,

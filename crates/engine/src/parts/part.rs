@@ -1,7 +1,7 @@
 //! One part of a cage on the device.
 
 use osculate_cage::CagePart;
-use osculate_subdiv::{Place, PlanDesc, SurfacePlan, WholeNames};
+use osculate_subdiv::{Place, SurfacePlan, WholeNames};
 
 use crate::{CapturedVertex, Engine, EngineError, Surface, SurfaceDesc, VertexKey};
 
@@ -31,7 +31,7 @@ impl Part {
     /// # Errors
     /// As [`Surface::new`]; there is nothing to draw if no own face is drawn.
     pub fn new(engine: &Engine, cage: CagePart, desc: &SurfaceDesc) -> Result<Self, EngineError> {
-        let plan = SurfacePlan::build_part(&cage, &PlanDesc { boundary: desc.boundary, scheme: desc.scheme })?;
+        let plan = SurfacePlan::build_part(&cage, &desc.plan())?;
         let names = WholeNames::new(&plan, &cage);
         let surface = Surface::from_plan(engine, cage.cage(), plan, |face| cage.is_own(face))?;
         Ok(Self { surface, cage, names, number: 0, count: 1 })

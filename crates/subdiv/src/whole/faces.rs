@@ -5,6 +5,7 @@ use osculate_surface::gregory::Fan;
 use rayon::prelude::*;
 
 use crate::tables::is_corner;
+use crate::unrefined::{is_regular_vertex, regular_face_net};
 use crate::{Connectivity, NONE, PatchForm, PatchKind, PatchList};
 
 /// A mesh of quads and triangles with its patches.
@@ -30,10 +31,6 @@ const KINDS: [PatchKind; 3] = [
     PatchKind::Stored { form: PatchForm::Triangle },
 ];
 
-/// Where the points about each corner of a face lie in a 16-point net: the corner, then going around it the two edge neighbours that are not of the face, and
-/// between them the vertex across.
-const AROUND_CORNERS: [[usize; 4]; 4] = [[5, 4, 0, 1], [6, 2, 3, 7], [10, 11, 15, 14], [9, 13, 12, 8]];
-
 impl<'a, M: Connectivity> WholeMesh<'a, M> {
     pub(super) fn new(
         mesh: &'a M,
@@ -41,7 +38,8 @@ impl<'a, M: Connectivity> WholeMesh<'a, M> {
         rule: BoundaryRule,
         is_drawn: impl Fn(u32) -> bool + Sync,
     ) -> Self {
-        let regular: Vec<bool> = (0..mesh.vertex_count() as u32).into_par_iter().map(|v| is_regular(mesh, v)).collect();
+        let regular: Vec<bool> =
+            (0..mesh.vertex_count() as u32).into_par_iter().map(|v| is_regular_vertex(mesh, v)).collect();
         let kind = |face| is_drawn(face).then(|| kind_of(mesh, &regular, face));
         let kinds: Vec<Option<PatchKind>> = (0..mesh.face_count() as u32).into_par_iter().map(kind).collect();
         let mut whole = Self {
@@ -131,34 +129,12 @@ impl<'a, M: Connectivity> WholeMesh<'a, M> {
     }
 
     fn regular_net(&self, face: u32) -> [u32; 16] {
-        let mut net = [0; 16];
-        for (h, places) in self.mesh.face_half_edges(face).zip(AROUND_CORNERS) {
-            let spoke = self.rotated(self.rotated(h));
-            let across = self.mesh.target(self.mesh.next(spoke));
-            let around = [self.mesh.origin(h), self.mesh.target(spoke), across, self.mesh.target(self.rotated(spoke))];
-            for (place, vertex) in places.into_iter().zip(around) {
-                net[place] = self.point(vertex);
-            }
-        }
-        net
-    }
-
-    /// The next half-edge counter-clockwise around the same vertex, away from the boundary.
-    fn rotated(&self, h: u32) -> u32 {
-        self.mesh.twin(self.mesh.prev(h))
+        regular_face_net(self.mesh, face).map(|vertex| self.point(vertex))
     }
 }
 
 fn sides(mesh: &impl Connectivity, face: u32) -> usize {
     mesh.face_half_edges(face).len()
-}
-
-/// Whether four quads surround a vertex.
-fn is_regular(mesh: &impl Connectivity, vertex: u32) -> bool {
-    mesh.vertex_half_edge(vertex) != NONE
-        && !mesh.is_boundary_vertex(vertex)
-        && mesh.face_valence(vertex) == 4
-        && mesh.ring(vertex).all(|h| sides(mesh, mesh.face(h)) == 4)
 }
 
 fn kind_of(mesh: &impl Connectivity, regular: &[bool], face: u32) -> PatchKind {

@@ -1,6 +1,6 @@
 //! Comparison with an earlier run.
 
-use super::report::Row;
+use super::report::{Row, everywhere};
 use crate::failure::{Failure, Verdict};
 use std::fs;
 use std::path::Path;
@@ -72,13 +72,14 @@ pub(super) fn compare(old: &[Row], new: &[Row], noise: f64) -> Result<Verdict, F
 
 fn name(row: &Row) -> String {
     let moving = if row.animated { ", moving" } else { "" };
-    format!("{} {} level {} {}{moving}", row.cage, row.scheme, row.level, row.evaluator)
+    let needed = if row.refine == everywhere() { "" } else { ", refined where needed" };
+    format!("{} {} level {} {}{moving}{needed}", row.cage, row.scheme, row.level, row.evaluator)
 }
 
 fn is_same(a: &Row, b: &Row) -> bool {
     let key = |row: &Row| {
-        let Row { cage, scheme, level, evaluator, animated, culling, size, samples, .. } = row.clone();
-        (cage, scheme, level.to_bits(), evaluator, animated, culling, size, samples)
+        let Row { cage, scheme, refine, level, evaluator, animated, culling, size, samples, .. } = row.clone();
+        (cage, scheme, refine, level.to_bits(), evaluator, animated, culling, size, samples)
     };
     key(a) == key(b)
 }

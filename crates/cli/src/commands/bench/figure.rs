@@ -1,7 +1,7 @@
 //! Frames per second over the tessellation factor, a panel per cage: Figure 5 of Loop, *Hardware Subdivision and Tessellation of
 //! Catmull-Clark Surfaces*, MSR-TR-2010-163. The vertical axis is logarithmic to base 10, the horizontal one to base 2.
 
-use super::report::Row;
+use super::report::{Row, everywhere};
 use crate::failure::Failure;
 use osculate_compare::whole_file;
 use plotters::coord::Shift;
@@ -44,7 +44,7 @@ fn draw(rows: &[Row]) -> Result<String, DrawError> {
     Ok(text)
 }
 
-/// One cage: a line per scheme and evaluator.
+/// One cage: a line per scheme, evaluator and way to refine.
 fn draw_panel(
     panel: &Panel<'_>,
     cage: &str,
@@ -66,9 +66,13 @@ fn draw_panel(
         .light_line_style(WHITE)
         .draw()?;
     let of_cage = || rows.iter().filter(|row| row.cage == cage);
-    for (scheme, evaluator) in distinct(of_cage().map(|row| (row.scheme.as_str(), row.evaluator.as_str()))) {
-        let (color, label) = (color(scheme), format!("{scheme}, {evaluator}"));
-        let is_line = |row: &&Row| row.scheme == scheme && row.evaluator == evaluator;
+    let line = |row: &Row| (row.scheme.clone(), row.evaluator.clone(), row.refine.clone());
+    for key in distinct(of_cage().map(line)) {
+        let is_line = |row: &&Row| line(row) == key;
+        let (scheme, evaluator, refine) = &key;
+        let everywhere = *refine == everywhere();
+        let label = format!("{scheme}, {evaluator}{}", if everywhere { "" } else { ", refined where needed" });
+        let color = color(scheme).mix(if everywhere { 1.0 } else { 0.5 });
         let points: Vec<(f64, f64)> = of_cage().filter(is_line).map(|row| (f64::from(row.level), rate(row))).collect();
         let solid = evaluator == "tessellator";
         let style = color.stroke_width(if solid { 2 } else { 1 });

@@ -1,7 +1,7 @@
 //! What is measured: cages x schemes x levels x evaluators, in groups that are measured in turn.
 
-use crate::options::{CullArg, DrawEvaluator};
-use osculate::{Evaluator, Factors, Scheme, Spacing, Tessellation};
+use crate::options::{CullArg, DrawEvaluator, RefineArg};
+use osculate::{BoundaryRule, Evaluator, Factors, Scheme, Spacing, SurfaceDesc, Tessellation};
 
 /// One thing to measure.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +9,8 @@ pub(super) struct Configuration {
     /// Number of the cage on the command line.
     pub(super) cage: usize,
     pub(super) scheme: Scheme,
+    /// Which faces are refined.
+    pub(super) refine: RefineArg,
     /// Segments per patch edge.
     pub(super) level: f32,
     pub(super) evaluator: Evaluator,
@@ -22,6 +24,16 @@ pub(super) struct Configuration {
 }
 
 impl Configuration {
+    /// What its surface is like.
+    pub(super) fn surface(&self, boundary: BoundaryRule) -> SurfaceDesc {
+        SurfaceDesc { scheme: self.scheme, boundary: Some(boundary), refinement: self.refine.into() }
+    }
+
+    /// Whether another configuration of the same cage has the same surface.
+    pub(super) fn is_of_surface(&self, other: &Self) -> bool {
+        (self.scheme, self.refine) == (other.scheme, other.refine)
+    }
+
     pub(super) fn tessellation(&self) -> Tessellation {
         let (factors, evaluator) = (Factors::Uniform(self.level), self.evaluator);
         Tessellation { factors, spacing: Spacing::Equal, evaluator }
@@ -44,22 +56,27 @@ pub(super) struct Group {
     pub(super) configurations: Vec<Configuration>,
 }
 
+/// Every scheme with every way to refine.
+pub(super) fn surfaces(schemes: &[Scheme], refine: &[RefineArg]) -> Vec<(Scheme, RefineArg)> {
+    schemes.iter().flat_map(|&scheme| refine.iter().map(move |&refine| (scheme, refine))).collect()
+}
+
 /// All groups, cage by cage, level by level; `template` tells what all configurations have in common.
 pub(super) fn groups(
     template: &Configuration,
     cages: usize,
-    schemes: &[Scheme],
+    surfaces: &[(Scheme, RefineArg)],
     levels: &[f32],
     evaluators: &[DrawEvaluator],
 ) -> Vec<Group> {
     let group = |cage, level| {
-        let of_scheme = |scheme| {
+        let of_surface = |&(scheme, refine)| {
             evaluators.iter().map(move |&evaluator| {
                 let evaluator = evaluator.into();
-                Configuration { cage, scheme, level, evaluator, ..*template }
+                Configuration { cage, scheme, refine, level, evaluator, ..*template }
             })
         };
-        Group { cage, configurations: schemes.iter().flat_map(|&scheme| of_scheme(scheme)).collect() }
+        Group { cage, configurations: surfaces.iter().flat_map(of_surface).collect() }
     };
     (0..cages).flat_map(|cage| levels.iter().map(move |&level| (cage, level))).map(|(c, l)| group(c, l)).collect()
 }

@@ -13,7 +13,7 @@ mod timing;
 use crate::args::GlobalArgs;
 use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
-use crate::options::{CullArg, DrawEvaluator, Level, Output, SchemeChoice, SchemeName, Size, check_place};
+use crate::options::{CullArg, DrawEvaluator, Level, Output, RefineArg, SchemeChoice, SchemeName, Size, check_place};
 use crate::postponement::Interruption;
 use crate::progress::Progress;
 use cages::BenchCage;
@@ -42,6 +42,10 @@ pub(crate) struct BenchArgs {
     /// Schemes to measure. Default: gregory2, with --figure5 all.
     #[arg(long, alias = "scheme", value_name = "SCHEMES", value_delimiter = ',')]
     schemes: Vec<SchemeChoice>,
+
+    /// Which faces of the cage are refined: one way, or both with a comma between.
+    #[arg(long, value_name = "FACES", value_delimiter = ',', default_value = "everywhere")]
+    refine: Vec<RefineArg>,
 
     /// Levels to measure: segments per patch edge. Default: 8, with --figure5 1,2,4,8,16,32.
     #[arg(long, alias = "level", value_name = "LEVELS", value_delimiter = ',', allow_hyphen_values = true)]
@@ -178,6 +182,7 @@ impl BenchArgs {
         let template = Configuration {
             cage: 0,
             scheme: SchemeChoice::schemes(&schemes)?[0],
+            refine: self.refine[0],
             level: levels[0],
             evaluator: evaluators[0].into(),
             animated: self.animate,
@@ -185,7 +190,8 @@ impl BenchArgs {
             size: [self.size.width, self.size.height],
             samples: self.samples,
         };
-        let groups = matrix::groups(&template, cages.len(), &SchemeChoice::schemes(&schemes)?, &levels, &evaluators);
+        let surfaces = matrix::surfaces(&SchemeChoice::schemes(&schemes)?, &self.refine);
+        let groups = matrix::groups(&template, cages.len(), &surfaces, &levels, &evaluators);
         let timing = Timing { frames: self.frames.get(), rounds: self.rounds.get(), max_seconds: self.max_seconds };
         Ok(Job {
             cages,

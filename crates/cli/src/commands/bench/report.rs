@@ -5,7 +5,7 @@ use super::table1::Table;
 use super::{Job, figure};
 use crate::failure::{Failure, Verdict};
 use crate::stdout;
-use osculate::Engine;
+use osculate::{Engine, Refinement};
 use osculate_compare::whole_file;
 use serde::{Deserialize, Serialize};
 use std::io::{self, Write};
@@ -17,6 +17,9 @@ pub(super) struct Row {
     pub(super) cage: String,
     pub(super) faces: usize,
     pub(super) scheme: String,
+    /// Which faces are refined.
+    #[serde(default = "everywhere")]
+    pub(super) refine: String,
     /// Segments per patch edge.
     pub(super) level: f32,
     pub(super) evaluator: String,
@@ -146,13 +149,19 @@ fn nothing() -> String {
     "none".to_owned()
 }
 
+/// Which faces are refined in rows that do not say.
+pub(super) fn everywhere() -> String {
+    Refinement::Everywhere.name().to_owned()
+}
+
 /// Columns of the CSV file and what goes into them.
 type Column = (&'static str, fn(&Row) -> String);
 
-const COLUMNS: [Column; 26] = [
+const COLUMNS: [Column; 27] = [
     ("cage", |row| row.cage.clone()),
     ("faces", |row| row.faces.to_string()),
     ("scheme", |row| row.scheme.clone()),
+    ("refine", |row| row.refine.clone()),
     ("level", |row| row.level.to_string()),
     ("evaluator", |row| row.evaluator.clone()),
     ("animated", |row| row.animated.to_string()),
@@ -199,16 +208,17 @@ fn table(out: &mut dyn Write, rows: &[Row]) -> io::Result<()> {
     let cage = rows.iter().map(|row| row.cage.chars().count()).max().unwrap_or_default().max(4);
     writeln!(
         out,
-        "{:cage$}  scheme    level  evaluator    triangles  frame ms   p95      to first              to limit",
+        "{:cage$}  scheme    refine      level  evaluator    triangles  frame ms   p95      to first              to limit",
         "cage"
     )?;
     for row in rows {
         let spread = |ratio: &Ratio| format!("{:.2} ({:.2} to {:.2})", ratio.median, ratio.low, ratio.high);
         writeln!(
             out,
-            "{:cage$}  {:8}  {:>5}  {:11}  {:>9}  {:>8.3}  {:>8.3}  {:20}  {}",
+            "{:cage$}  {:8}  {:10}  {:>5}  {:11}  {:>9}  {:>8.3}  {:>8.3}  {:20}  {}",
             row.cage,
             row.scheme,
+            row.refine,
             row.level,
             row.evaluator,
             optional(row.triangles),
@@ -233,6 +243,7 @@ pub(super) mod tests {
             cage: cage.to_owned(),
             faces: 6,
             scheme: scheme.to_owned(),
+            refine: everywhere(),
             level,
             evaluator: "tessellator".to_owned(),
             animated: false,

@@ -12,7 +12,7 @@ use crate::progress::Progress;
 use glam::DVec3;
 use osculate::gpu::{Measure, PassStatistics, Prepared, Recording};
 use osculate::{
-    Camera, Drawing, DrawingDesc, Engine, EngineError, Evaluator, Shade, Surface, SurfaceDesc, Target, Targets,
+    Camera, Drawing, DrawingDesc, Engine, EngineError, Evaluator, Refinement, Shade, Surface, Target, Targets,
 };
 use osculate_cage::Cage;
 use std::time::Instant;
@@ -50,7 +50,7 @@ impl Scene {
     ) -> Result<Self, EngineError> {
         let known = engine.pipeline_names().len();
         let start = Instant::now();
-        let desc = SurfaceDesc { scheme: configuration.scheme, boundary: Some(input.boundary) };
+        let desc = configuration.surface(input.boundary);
         let surface = Surface::new(engine, &input.cage, &desc)?;
         let desc = DrawingDesc {
             tessellation: configuration.tessellation(),
@@ -153,10 +153,10 @@ pub(super) fn measure(
     };
     let count = group.configurations.len();
     let mut scenes = group.configurations.iter().map(|one| scene(one, false)).collect::<Result<Vec<_>, _>>()?;
-    // Both evaluators of a scheme have the same limit: the triangles of the compute evaluator.
+    // Both evaluators of a surface have the same limit: the triangles of the compute evaluator.
     let mut limit_of: Vec<Option<usize>> = vec![None; count];
     for (index, one) in group.configurations.iter().enumerate().filter(|_| job.limit) {
-        let known = (0..index).find(|&other| group.configurations[other].scheme == one.scheme);
+        let known = (0..index).find(|&other| group.configurations[other].is_of_surface(one));
         if let Some(other) = known {
             limit_of[index] = limit_of[other];
             continue;
@@ -233,6 +233,7 @@ impl Named<'_> {
             cage: self.cage.to_owned(),
             faces: self.input.cage.face_count(),
             scheme: configuration.scheme.name().to_owned(),
+            refine: Refinement::from(configuration.refine).name().to_owned(),
             level: configuration.level,
             evaluator: super::matrix::evaluator_name(configuration.evaluator).to_owned(),
             animated: configuration.animated,

@@ -13,7 +13,7 @@ use crate::postponement::Interruption;
 use crate::progress::Progress;
 use osculate::gpu::{Device, Measure, Prepared, Recording};
 use osculate::{
-    Camera, Culling, Drawing, DrawingDesc, Engine, EngineError, Shade, Surface, SurfaceDesc, Target, Targets,
+    Camera, Culling, Drawing, DrawingDesc, Engine, EngineError, Shade, Surface, Target, Targets,
 };
 use serde::Serialize;
 use std::fmt;
@@ -79,7 +79,7 @@ pub(super) fn measure(
             break;
         }
         let configuration = &job.groups[0].configurations[0];
-        let desc = SurfaceDesc { scheme: configuration.scheme, boundary: Some(input.boundary) };
+        let desc = configuration.surface(input.boundary);
         let surface = Surface::new(engine, &input.cage, &desc)?;
         let targets = Targets::new(engine, configuration.size, Target::of(Shade::Peer, configuration.samples))?;
         let desc = DrawingDesc {

@@ -74,9 +74,13 @@ pub(super) fn warn_if_blank(path: &Path, picture: &Picture) -> bool {
 }
 
 impl Job {
+    fn surface_desc(&self, scheme: Scheme, input: &Input) -> SurfaceDesc {
+        SurfaceDesc { scheme, boundary: Some(input.boundary), refinement: self.refine.into() }
+    }
+
     /// The surfaces on the device.
     pub(super) fn scene<'a>(&'a self, engine: &'a Engine, input: &Input) -> Result<Scene<'a>, Failure> {
-        let desc = SurfaceDesc { scheme: self.scheme, boundary: Some(input.boundary) };
+        let desc = self.surface_desc(self.scheme, input);
         let surface = Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))?;
         self.scene_of(engine, input, surface)
     }
@@ -86,7 +90,7 @@ impl Job {
         let maps = self.maps(&input.cage)?;
         let dressed = |surface| maps.apply(surface, &input.cage, &self.input.file);
         let surface = |scheme| {
-            let desc = SurfaceDesc { scheme, boundary: Some(input.boundary) };
+            let desc = self.surface_desc(scheme, input);
             dressed(Surface::new(engine, &input.cage, &desc).map_err(|error| self.input.refuse(error))?)
         };
         let size = 2.0 * input.cage.bounds().half_diagonal();
@@ -97,7 +101,7 @@ impl Job {
     /// Draws the cage as it is in its file.
     pub(super) fn draw_still(&self, engine: &Engine, input: &Input, global: &GlobalArgs) -> Result<(), Failure> {
         let desc = self.desc(input.cage.bounds())?;
-        let surface = SurfaceDesc { scheme: self.scheme, boundary: Some(input.boundary) };
+        let surface = self.surface_desc(self.scheme, input);
         let made = WholeOrParts::new(engine, &input.cage, &self.parts.desc(surface));
         let scene = match made.map_err(|error| self.input.refuse(error))? {
             WholeOrParts::Whole(surface) => self.scene_of(engine, input, surface)?,
