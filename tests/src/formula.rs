@@ -76,7 +76,9 @@ impl Reader<'_> {
     fn patch(&mut self, record: &PatchRecord) -> Formula {
         let interior = NetKind::Interior { valence: record.valence() };
         match record.kind() {
-            PatchKind::Unrefined | PatchKind::Regular => Formula::Bicubic(array(bspline::patch_to_bezier().apply(&self.net(record)))),
+            PatchKind::Unrefined | PatchKind::Regular => {
+                Formula::Bicubic(array(bspline::patch_to_bezier().apply(&self.net(record))))
+            }
             PatchKind::Extraordinary { form: PatchForm::Gregory, .. } => {
                 Formula::Gregory(array(gregory::gregory2(interior).apply(&self.net(record))))
             }

@@ -392,7 +392,10 @@ mod tests {
         let stored = PatchKind::Stored { form: PatchForm::Gregory };
         assert_eq!(patches_name(stored, false, plain(Spacing::Odd), Output::Capture), "gregory stored, odd, capture");
         let culled = Division { adaptive: true, culls: true, ..plain(Spacing::Equal) };
-        assert_eq!(patches_name(stored, false, culled, Output::Capture), "gregory stored, equal adaptive, capture, culled");
+        assert_eq!(
+            patches_name(stored, false, culled, Output::Capture),
+            "gregory stored, equal adaptive, capture, culled"
+        );
         let regular = [(PatchKind::Unrefined, false), (PatchKind::Regular, true)];
         let names = regular.map(|(kind, halves)| patches_name(kind, halves, plain(Spacing::Equal), Output::Capture));
         assert_eq!(names, ["regular unrefined, equal, capture", "regular beside unrefined, equal, capture"]);

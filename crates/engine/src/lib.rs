@@ -85,7 +85,9 @@ pub use osculate_cage::{BoundaryRule, Cage};
 pub use osculate_gpu as gpu;
 pub use osculate_gpu::{Device, DeviceDesc, DeviceError, DeviceInfo, GpuError, Recording, devices};
 pub use osculate_shaders::ShaderSet;
-pub use osculate_subdiv::{PatchForm, PatchKind, Place, PlanError, Refinement, Scheme, SubFace, SurfacePlan, UnknownScheme};
+pub use osculate_subdiv::{
+    PatchForm, PatchKind, Place, PlanError, Refinement, Scheme, SubFace, SurfacePlan, UnknownScheme,
+};
 pub use parts::{Part, Parts, PartsDesc, PartsProof, WholeKey, WholeOrParts};
 pub use pipelines::{PipelineObserver, PipelineProgress};
 pub use render::{Picture, RenderDesc, Shade, render};

@@ -24,7 +24,9 @@ impl Surface {
             return Err(EngineError::Unrefined { what: "odd and even spacing (--spacing)" });
         }
         if segments > MOST_SEGMENTS {
-            return Err(EngineError::Unrefined { what: "levels above 32 (--level), since their edges have twice as many segments" });
+            return Err(EngineError::Unrefined {
+                what: "levels above 32 (--level), since their edges have twice as many segments",
+            });
         }
         Ok(2 * segments)
     }

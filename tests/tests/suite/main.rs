@@ -16,5 +16,6 @@ mod parts;
 mod pictures;
 mod sampling;
 mod subdivision;
+mod unrefined;
 mod watertight;
 mod whole;

@@ -5,8 +5,8 @@ use crate::device::with_engine;
 use crate::failure::{Failure, Verdict};
 use crate::input::InputArgs;
 use crate::options::{
-    AnimationArgs, CameraArgs, Colour, CullArg, DisplaceArgs, Maps, NumberedPath, Output, PartsArgs, RefineArg, SchemeName,
-    TessellationArgs,
+    AnimationArgs, CameraArgs, Colour, CullArg, DisplaceArgs, Maps, NumberedPath, Output, PartsArgs, RefineArg,
+    SchemeName, TessellationArgs,
 };
 use crate::progress::Progress;
 use clap::{Args, ValueEnum};

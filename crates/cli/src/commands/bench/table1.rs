@@ -12,9 +12,7 @@ use crate::input::Input;
 use crate::postponement::Interruption;
 use crate::progress::Progress;
 use osculate::gpu::{Device, Measure, Prepared, Recording};
-use osculate::{
-    Camera, Culling, Drawing, DrawingDesc, Engine, EngineError, Shade, Surface, Target, Targets,
-};
+use osculate::{Camera, Culling, Drawing, DrawingDesc, Engine, EngineError, Shade, Surface, Target, Targets};
 use serde::Serialize;
 use std::fmt;
 use std::time::Instant;
