@@ -80,7 +80,7 @@ fn files_hold_the_results_and_stdout_a_table() {
         ["cage", "cage", "torus:50", "torus:50"]
     );
     let csv = read("now.csv");
-    assert!(csv.starts_with("cage,faces,scheme,level,evaluator,animated,") && csv.lines().count() == 5, "{csv}");
+    assert!(csv.starts_with("cage,faces,scheme,refine,level,evaluator,animated,") && csv.lines().count() == 5, "{csv}");
     assert_eq!(read("now.svg").matches("tessellator").count(), 2);
 }
 
@@ -166,4 +166,16 @@ fn an_interruption_keeps_what_was_measured() {
         Err(_) => assert_ne!(status.code(), Some(0)),
     }
     assert!(status.signal() == Some(2) || status.code() == Some(2) || status.success(), "{status}");
+}
+
+/// The same triangles of a fourth as many patches.
+#[test]
+fn both_ways_to_refine_are_measured_in_turn() {
+    let folder = folder();
+    let arguments = [&["bench", "torus:48", "--evaluator", "tessellator", "--refine", "everywhere,needed"], &QUICK[..]];
+    let rows = objects(&osculate(folder.path(), &arguments.concat()).exits(0).stdout);
+    let of = |row: &Value| (row["refine"].as_str().unwrap().to_owned(), row["patches"].as_u64().unwrap());
+    let faces = rows[0]["faces"].as_u64().unwrap();
+    assert_eq!(rows.iter().map(of).collect::<Vec<_>>(), [("everywhere".into(), 4 * faces), ("needed".into(), faces)]);
+    assert_eq!(rows[0]["triangles"], rows[1]["triangles"]);
 }

@@ -127,3 +127,15 @@ fn schemes_and_levels_are_checked_first() {
     run(&["--adaptive", "0"]).fails(2, "--adaptive");
     run(&[]).fails(3, "missing.obj");
 }
+
+#[test]
+fn what_is_refined_where_needed_is_proved_and_does_not_go_with_everything() {
+    let folder = folder();
+    let run = |arguments: &[&str]| {
+        osculate(folder.path(), &[&["check", "torus:48", "--refine", "needed"], arguments].concat())
+    };
+    let ran = run(&["--schemes", "gregory2", "--levels", "3"]).exits(0);
+    assert!(ran.stdout.contains("watertight"), "{}", ran.stdout);
+    run(&["--schemes", "gregory2", "--spacing", "odd"]).fails(2, "--refine");
+    run(&["--schemes", "gregory2", "--levels", "33"]).fails(2, "--refine");
+}
