@@ -6,7 +6,8 @@
 
 // Factor of a side of a quad: that of its edge; or, an edge of an unrefined face being two of the others, twice as many segments.
 float side_factor(uint edge) {
-    return SIDES == SIDES_UNREFINED ? 2.0 * ceil(frame.level) : edge_factor(edge >> 1u);
+    precise float doubled = 2.0 * ceil(frame.level);
+    return SIDES == SIDES_UNREFINED ? doubled : edge_factor(edge >> 1u);
 }
 
 // Writes gl_TessLevelOuter and gl_TessLevelInner of a patch. Vulkan's outer levels are those of u=0, v=0, u=1, v=1.

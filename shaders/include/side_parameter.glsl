@@ -53,7 +53,8 @@ float side_parameter(uint id, uint side, uint flip, vec2 uv) {
     float x = edge_parameter(side, 0u, uv);
 #ifdef SIDES_IN_SEGMENTS
     uint segments = side_segments();
-    uint i = uint(x * float(segments) + 0.5);
+    precise float place = x * float(segments) + 0.5;
+    uint i = uint(place);
     if (is_half) {
         i += side == 3u ? segments : 0u;
         segments *= 2u;

@@ -151,8 +151,8 @@ fn a_wrong_half_is_noticed() {
 /// Without it, points differ by what the tessellator rounds.
 #[test]
 fn parameters_that_are_not_taken_from_integers_are_noticed() {
-    let from = "uint i = uint(x * float(segments) + 0.5);";
-    let to = "if (!is_half) { return edge_parameter(side, flip, uv); } uint i = uint(x * float(segments) + 0.5);";
+    let from = "uint i = uint(place);";
+    let to = "if (!is_half) { return edge_parameter(side, flip, uv); } uint i = uint(place);";
     sabotaged(Mutation { path: PATH, from, to }, 3.0, |report| report.split_positions > 0);
 }
 
@@ -167,8 +167,6 @@ fn a_middle_that_is_taken_for_a_corner_is_noticed() {
 #[test]
 fn factors_that_are_not_doubled_are_noticed() {
     let path = "include/factors.glsl";
-    let from = "return SIDES == SIDES_UNREFINED ? 2.0 * ceil(frame.level)";
-    sabotaged(Mutation { path, from, to: "return SIDES == SIDES_UNREFINED ? ceil(frame.level)" }, 4.0, |report| {
-        report.open > 0
-    });
+    let from = "precise float doubled = 2.0 * ceil(frame.level);";
+    sabotaged(Mutation { path, from, to: "float doubled = ceil(frame.level);" }, 4.0, |report| report.open > 0);
 }
