@@ -18,12 +18,12 @@ vec3 control(uint i) {
 
 // The two products of bases/bicubic.glsl, one after the other.
 void make_control_points(uint id) {
-    uint net = patches[id].net;
+    uint net = patch_basis(id).net;
     vec3 row[16];
     for (uint b = 0u; b < 4u; ++b) {
         vec3 p[4];
         for (uint i = 0u; i < 4u; ++i) {
-            p[i] = load_point(nets[net + 4u * b + i]);
+            p[i] = load_point(net_index(net + 4u * b + i));
         }
         for (uint i = 0u; i < 4u; ++i) {
             row[4u * b + i] = bspline_to_bezier(i, p[0], p[1], p[2], p[3]);

@@ -9,7 +9,7 @@
 #include "forms/stam.glsl"
 
 uint control_count() {
-    return patches[grid.patch_id].net_size;
+    return patch_basis(grid.patch_id).net_size;
 }
 
 void main() {

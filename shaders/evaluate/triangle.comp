@@ -11,7 +11,7 @@ uint control_count() {
 }
 
 vec3 change_basis(uint point, uint basis, uint net_size) {
-    return stored_vector(patches[grid.patch_id].net + point);
+    return stored_vector(patch_basis(grid.patch_id).net + point);
 }
 
 void main() {

@@ -34,6 +34,14 @@
 #define BINDING_MAPPING 29
 #define BINDING_HEIGHTS 30
 #define BINDING_COLORS 31
+#define BINDING_REGULAR_SOURCES 32
+#define BINDING_QUADRUPLES 37
+
+// The same buffers for those that read them, as arrays of vectors: what writes them has the numbers above.
+#define BINDING_POINT_TEXELS 33
+#define BINDING_VERTEX_RECORD_TEXELS 34
+#define BINDING_EDGE_RECORD_TEXELS 35
+#define BINDING_COEFFICIENT_TEXELS 36
 
 // Where buffers and images of fragment shaders from elsewhere begin (material.glsl).
 #define BINDING_CALLER 64

@@ -30,7 +30,7 @@ void write_side(uint grid_patch, uint side, uint id) {
         return;
     }
     uint first = grid_patches[grid_patch].side_vertex[side];
-    uint edge = patches[id].edge[side];
+    uint edge = patch_edge(id, side);
     bool flipped = (edge & 1u) == 1u;
 #ifdef CUBIC_SIDES
     EdgeRecord record = load_edge_record(edge >> 1u);
@@ -57,7 +57,7 @@ void write_border() {
     uint id = grid_patches[grid_patch].patch_id;
     uint owned = grid_patches[grid_patch].owned >> side;
     if ((owned & 1u) == 1u) {
-        SurfacePoint corner = vertex_record_point(patches[id].vertex[side]);
+        SurfacePoint corner = vertex_record_point(patch_vertex(id, side));
         store_border_vertex(grid_patches[grid_patch].corner_vertex[side], id, side_uv(side, 0.0, 1.0), corner);
     }
     if (((owned >> GRID_OWNED_SIDES) & 1u) == 1u) {

@@ -3,10 +3,10 @@
 #define COEFFICIENTS_GLSL
 #include "bindings.glsl"
 
-layout(std430, set = 0, binding = BINDING_COEFFICIENTS) readonly buffer Coefficients { float coefficients[]; };
+layout(set = 0, binding = BINDING_COEFFICIENT_TEXELS) uniform samplerBuffer coefficients;
 
 vec3 stored_vector(uint index) {
-    return vec3(coefficients[3u * index], coefficients[3u * index + 1u], coefficients[3u * index + 2u]);
+    return texelFetch(coefficients, int(index)).xyz;
 }
 
 #endif

@@ -17,9 +17,9 @@
 
 // Threads of a workgroup of the compute evaluator, which evaluates one patch; specialized where another number is better.
 #define GRID_GROUP_SIZE 32
-// 32-bit words of a vertex that it makes: position, normal, measure, patch; or position and normal, if nothing looks at the others.
-#define GRID_VERTEX_WORDS 9
-#define GRID_PLACE_WORDS 6
+// Vectors of three words of a vertex that it makes: position, normal, (measure, patch); or position and normal, if nothing looks at the others.
+#define GRID_VERTEX_VECTORS 3
+#define GRID_PLACE_VECTORS 2
 // Bits of a rate that hold the number of segments; the others say where the parameters begin.
 #define GRID_SEGMENT_BITS 7
 // The first bit of GridPatch.owned that stands for a side.

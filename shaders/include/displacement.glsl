@@ -146,7 +146,7 @@ float texels_inside(uint id, vec2 uv) {
     precise float total = 0.0;
     for (uint side = 0u; side < 4u; ++side) {
         if (nearness[side] > 0.0) {
-            sum = sum + nearness[side] * texels_of_edge(patches[id].edge[side] >> 1u);
+            sum = sum + nearness[side] * texels_of_edge(patch_edge(id, side) >> 1u);
             total = total + nearness[side];
         }
     }
@@ -199,10 +199,10 @@ SurfacePoint displaced_point(uint id, vec2 uv, InnerPoint inner, SurfacePoint ba
     }
     uint corner = corner_of(uv);
     if (corner != 4u) {
-        uint end = vertex_uv[patches[id].vertex[corner]];
+        uint end = vertex_uv[patch_vertex(id, corner)];
         return displaced_on_edge(base, end >> 1u, float(end & 1u));
     }
-    uint edge = patches[id].edge[side];
+    uint edge = patch_edge(id, side);
     return displaced_on_edge(base, edge >> 1u, edge_parameter(side, edge & 1u, uv));
 }
 

@@ -1,21 +1,17 @@
 // Vertices along edges that are all divided alike: numbered by records, in the record's direction, nothing measured. One thread per edge.
 #ifndef EDGE_POINTS_GLSL
 #define EDGE_POINTS_GLSL
+#extension GL_EXT_scalar_block_layout : require
 #include "thread.glsl"
 #include "edge_points_push.glsl"
 #include "edge_record.glsl"
 #include "grid.glsl"
 
-layout(std430, set = 0, binding = BINDING_GRID_VERTICES) writeonly buffer GridVertices { float grid_vertices[]; };
+layout(scalar, set = 0, binding = BINDING_GRID_VERTICES) writeonly buffer GridVertices { vec3 grid_vertices[]; };
 
 void store_edge_vertex(uint number, SurfacePoint point) {
-    uint at = GRID_PLACE_WORDS * number;
-    grid_vertices[at] = point.position.x;
-    grid_vertices[at + 1u] = point.position.y;
-    grid_vertices[at + 2u] = point.position.z;
-    grid_vertices[at + 3u] = point.normal.x;
-    grid_vertices[at + 4u] = point.normal.y;
-    grid_vertices[at + 5u] = point.normal.z;
+    grid_vertices[2u * number] = point.position;
+    grid_vertices[2u * number + 1u] = point.normal;
 }
 
 void write_edge_points(uint edge, EdgeRecord record) {

@@ -1,16 +1,14 @@
 // Writing edge records.
 #ifndef EDGE_STORE_GLSL
 #define EDGE_STORE_GLSL
+#extension GL_EXT_scalar_block_layout : require
 #include "bindings.glsl"
 #include "constants.glsl"
 
-layout(std430, set = 0, binding = BINDING_EDGE_RECORDS) writeonly buffer EdgeRecords { float edge_records[]; };
+layout(scalar, set = 0, binding = BINDING_EDGE_RECORDS) writeonly buffer EdgeRecords { vec3 edge_records[]; };
 
 void store_edge_point(uint edge, uint i, vec3 p) {
-    uint at = EDGE_RECORD_FLOATS * edge + 3u * i;
-    edge_records[at] = p.x;
-    edge_records[at + 1u] = p.y;
-    edge_records[at + 2u] = p.z;
+    edge_records[EDGE_RECORD_POINTS * edge + i] = p;
 }
 
 #endif

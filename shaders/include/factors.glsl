@@ -12,10 +12,10 @@ float side_factor(uint edge) {
 
 // Writes gl_TessLevelOuter and gl_TessLevelInner of a patch. Vulkan's outer levels are those of u=0, v=0, u=1, v=1.
 void write_factors(uint patch_id) {
-    float f0 = side_factor(patches[patch_id].edge[0]);
-    float f1 = side_factor(patches[patch_id].edge[1]);
-    float f2 = side_factor(patches[patch_id].edge[2]);
-    float f3 = side_factor(patches[patch_id].edge[3]);
+    float f0 = side_factor(patch_edge(patch_id, 0));
+    float f1 = side_factor(patch_edge(patch_id, 1));
+    float f2 = side_factor(patch_edge(patch_id, 2));
+    float f3 = side_factor(patch_edge(patch_id, 3));
     gl_TessLevelOuter[0] = f3;
     gl_TessLevelOuter[1] = f0;
     gl_TessLevelOuter[2] = f1;
@@ -26,9 +26,9 @@ void write_factors(uint patch_id) {
 
 // The same for a triangle: outer levels are those of u=0, v=0, w=0.
 void write_triangle_factors(uint patch_id) {
-    float side0 = edge_factor(patches[patch_id].edge[0] >> 1u);
-    float side1 = edge_factor(patches[patch_id].edge[1] >> 1u);
-    float side2 = edge_factor(patches[patch_id].edge[2] >> 1u);
+    float side0 = edge_factor(patch_edge(patch_id, 0) >> 1u);
+    float side1 = edge_factor(patch_edge(patch_id, 1) >> 1u);
+    float side2 = edge_factor(patch_edge(patch_id, 2) >> 1u);
     gl_TessLevelOuter[0] = side2;
     gl_TessLevelOuter[1] = side0;
     gl_TessLevelOuter[2] = side1;

@@ -25,7 +25,7 @@ uint inner_count(GridPatch grid);
 vec2 inner_uv(GridPatch grid, uint i);
 
 vec3 net_point_at(uint i) {
-    return load_point(nets[patches[grid.patch_id].net + i]);
+    return load_point(net_index(patch_basis(grid.patch_id).net + i));
 }
 
 // From the kernel: how many control points the basis makes.
@@ -51,7 +51,7 @@ vec3 control(uint i) {
 }
 
 void make_control_points() {
-    PatchRecord p = patches[grid.patch_id];
+    PatchBasis p = patch_basis(grid.patch_id);
     stored = (p.tag & TAG_STORED) != 0u;
     stored_at = p.net;
     if (!stored) {
@@ -89,7 +89,7 @@ GridVertex border_vertex(uint i) {
     uint last = rate_segments(rate);
     GridVertex vertex;
     vertex.uv = side_uv(side, rate_parameter(rate, i), rate_parameter(rate, last - i));
-    bool flipped = (patches[grid.patch_id].edge[side] & 1u) == 1u;
+    bool flipped = (patch_edge(grid.patch_id, side) & 1u) == 1u;
     vertex.number = i == 0u ? grid.corner_vertex[side] : grid.side_vertex[side] + (flipped ? last - i : i) - 1u;
     vertex.owned = ((grid.owned >> (i == 0u ? side : GRID_OWNED_SIDES + side)) & 1u) == 1u;
     return vertex;

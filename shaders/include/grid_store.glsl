@@ -1,6 +1,7 @@
 // Writing vertices of the compute evaluator.
 #ifndef GRID_STORE_GLSL
 #define GRID_STORE_GLSL
+#extension GL_EXT_scalar_block_layout : require
 #include "bindings.glsl"
 #include "constants.glsl"
 #include "forms/form.glsl"
@@ -9,13 +10,7 @@
 #include "displacement.glsl"
 #endif
 
-layout(std430, set = 0, binding = BINDING_GRID_VERTICES) writeonly buffer GridVertices { uint grid_vertices[]; };
-
-void store_grid_vector(uint at, vec3 v) {
-    grid_vertices[at] = floatBitsToUint(v.x);
-    grid_vertices[at + 1u] = floatBitsToUint(v.y);
-    grid_vertices[at + 2u] = floatBitsToUint(v.z);
-}
+layout(scalar, set = 0, binding = BINDING_GRID_VERTICES) writeonly buffer GridVertices { vec3 grid_vertices[]; };
 
 // Whether vertices hold more than places: what is not drawn does.
 bool grid_stores_more() {
@@ -23,13 +18,11 @@ bool grid_stores_more() {
 }
 
 void store_grid_vertex(uint number, uint id, SurfacePoint point, vec2 measure) {
-    uint at = (grid_stores_more() ? GRID_VERTEX_WORDS : GRID_PLACE_WORDS) * number;
-    store_grid_vector(at, point.position);
-    store_grid_vector(at + 3u, point.normal);
+    uint at = (grid_stores_more() ? GRID_VERTEX_VECTORS : GRID_PLACE_VECTORS) * number;
+    grid_vertices[at] = point.position;
+    grid_vertices[at + 1u] = point.normal;
     if (grid_stores_more()) {
-        grid_vertices[at + 6u] = floatBitsToUint(measure.x);
-        grid_vertices[at + 7u] = floatBitsToUint(measure.y);
-        grid_vertices[at + 8u] = id;
+        grid_vertices[at + 2u] = vec3(measure, uintBitsToFloat(id));
     }
 }
 

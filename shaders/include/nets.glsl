@@ -3,7 +3,15 @@
 #define NETS_GLSL
 #include "bindings.glsl"
 
-layout(std430, set = 0, binding = BINDING_NETS) readonly buffer Nets { uint nets[]; };
-layout(std430, set = 0, binding = BINDING_WEIGHTS) readonly buffer Weights { float weights[]; };
+layout(set = 0, binding = BINDING_NETS) uniform usamplerBuffer nets;
+layout(set = 0, binding = BINDING_WEIGHTS) uniform samplerBuffer weights;
+
+uint net_index(uint i) {
+    return texelFetch(nets, int(i)).x;
+}
+
+float weight_at(uint i) {
+    return texelFetch(weights, int(i)).x;
+}
 
 #endif

@@ -2,23 +2,21 @@
 // Define POINTS_WRITABLE before the include in a kernel that computes points.
 #ifndef POINTS_GLSL
 #define POINTS_GLSL
+#extension GL_EXT_scalar_block_layout : require
 #include "bindings.glsl"
-#include "constants.glsl"
 
-#ifdef POINTS_WRITABLE
-layout(std430, set = 0, binding = BINDING_POINTS) buffer Points { float points[]; };
-
-void store_point(uint index, vec3 p) {
-    points[POINT_FLOATS * index] = p.x;
-    points[POINT_FLOATS * index + 1] = p.y;
-    points[POINT_FLOATS * index + 2] = p.z;
-}
-#else
-layout(std430, set = 0, binding = BINDING_POINTS) readonly buffer Points { float points[]; };
-#endif
+layout(set = 0, binding = BINDING_POINT_TEXELS) uniform samplerBuffer point_texels;
 
 vec3 load_point(uint index) {
-    return vec3(points[POINT_FLOATS * index], points[POINT_FLOATS * index + 1], points[POINT_FLOATS * index + 2]);
+    return texelFetch(point_texels, int(index)).xyz;
 }
+
+#ifdef POINTS_WRITABLE
+layout(scalar, set = 0, binding = BINDING_POINTS) writeonly buffer Points { vec3 points[]; };
+
+void store_point(uint index, vec3 p) {
+    points[index] = p;
+}
+#endif
 
 #endif

@@ -6,34 +6,43 @@
 #include "constants.glsl"
 #include "edge_record.glsl"
 
-// What a patch needs beside its net. vertex[k]: record of corner k. edge[k]: record of side k, shifted left by one, plus the flip bit.
-struct PatchRecord {
-    uint vertex[4];
-    uint edge[4];
-    // First index of the net in Nets; of a stored patch the first of its vectors in Coefficients.
+// What a patch needs beside its net, twelve numbers: records of its corners; records of its sides, shifted left by one, plus the flip bit; then first index of
+// the net in Nets (of a stored patch the first of its vectors in Coefficients), first weight of the change of basis in Weights, points of the net, tag: FORM_*, TAG_*, valence.
+layout(set = 0, binding = BINDING_PATCHES) uniform usamplerBuffer patches;
+// Position and normal of every vertex record.
+layout(set = 0, binding = BINDING_VERTEX_RECORD_TEXELS) uniform samplerBuffer vertex_records;
+// Control points of C and of D of every edge record.
+layout(set = 0, binding = BINDING_EDGE_RECORD_TEXELS) uniform samplerBuffer edge_records;
+
+// Record of a corner.
+uint patch_vertex(uint id, uint corner) {
+    return texelFetch(patches, int(3u * id))[corner];
+}
+
+// Record of a side and flip bit.
+uint patch_edge(uint id, uint side) {
+    return texelFetch(patches, int(3u * id + 1u))[side];
+}
+
+struct PatchBasis {
     uint net;
-    // First weight of the change of basis in Weights.
     uint basis;
-    // Points of the net.
     uint net_size;
-    // FORM_*, TAG_*, valence.
     uint tag;
 };
 
-layout(std430, set = 0, binding = BINDING_PATCHES) readonly buffer Patches { PatchRecord patches[]; };
-layout(std430, set = 0, binding = BINDING_VERTEX_RECORDS) readonly buffer VertexRecords { float vertex_records[]; };
-layout(std430, set = 0, binding = BINDING_EDGE_RECORDS) readonly buffer EdgeRecords { float edge_records[]; };
+PatchBasis patch_basis(uint id) {
+    uvec4 p = texelFetch(patches, int(3u * id + 2u));
+    return PatchBasis(p.x, p.y, p.z, p.w);
+}
 
 vec3 edge_record_point(uint edge, uint i) {
-    uint at = EDGE_RECORD_FLOATS * edge + 3u * i;
-    return vec3(edge_records[at], edge_records[at + 1u], edge_records[at + 2u]);
+    return texelFetch(edge_records, int(EDGE_RECORD_POINTS * edge + i)).xyz;
 }
 
 SurfacePoint vertex_record_point(uint vertex) {
-    uint at = VERTEX_RECORD_FLOATS * vertex;
-    return SurfacePoint(
-        vec3(vertex_records[at], vertex_records[at + 1u], vertex_records[at + 2u]),
-        vec3(vertex_records[at + 3u], vertex_records[at + 4u], vertex_records[at + 5u]));
+    int at = int(2u * vertex);
+    return SurfacePoint(texelFetch(vertex_records, at).xyz, texelFetch(vertex_records, at + 1).xyz);
 }
 
 EdgeRecord load_edge_record(uint edge) {

@@ -13,8 +13,8 @@ const int LEFT[4] = int[](4, -1, -4, 1);
 
 // The record of a source in `regular_sources`.
 EdgeRecord regular_edge_record(uint source) {
-    uint patch_id = regular_sources[source] >> 2u;
-    uint side = regular_sources[source] & 3u;
+    uint patch_id = regular_source(source) >> 2u;
+    uint side = regular_source(source) & 3u;
     vec3 limit[4];
     vec3 slope[4];
     for (int i = 0; i < 4; ++i) {

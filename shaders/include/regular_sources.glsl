@@ -6,10 +6,14 @@
 #include "points.glsl"
 
 // Patch number in the regular list, times 4, plus the corner or side. The regular list is the first, so its nets begin at 0.
-layout(std430, set = 0, binding = BINDING_SOURCES) readonly buffer Sources { uint regular_sources[]; };
+layout(set = 0, binding = BINDING_REGULAR_SOURCES) uniform usamplerBuffer regular_sources;
+
+uint regular_source(uint i) {
+    return texelFetch(regular_sources, int(i)).x;
+}
 
 vec3 regular_net_point(uint patch_id, uint i) {
-    return load_point(nets[16u * patch_id + i]);
+    return load_point(net_index(16u * patch_id + i));
 }
 
 #endif

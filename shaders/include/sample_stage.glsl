@@ -22,7 +22,7 @@ layout(std430, set = 0, binding = BINDING_SAMPLES) writeonly buffer Samples { fl
 uint sampled_patch;
 
 vec3 net_point_at(uint i) {
-    return load_point(nets[patches[sampled_patch].net + i]);
+    return load_point(net_index(patch_basis(sampled_patch).net + i));
 }
 
 // From the basis.
@@ -30,10 +30,10 @@ vec3 change_basis(uint point, uint basis, uint net_size);
 
 // As the control stage makes it, or stored.
 vec3 control(uint i) {
-    if ((patches[sampled_patch].tag & TAG_STORED) != 0u) {
-        return stored_vector(patches[sampled_patch].net + i);
+    if ((patch_basis(sampled_patch).tag & TAG_STORED) != 0u) {
+        return stored_vector(patch_basis(sampled_patch).net + i);
     }
-    return change_basis(i, patches[sampled_patch].basis, patches[sampled_patch].net_size);
+    return change_basis(i, patch_basis(sampled_patch).basis, patch_basis(sampled_patch).net_size);
 }
 
 void store_vector(uint sample_id, uint i, vec3 v) {

@@ -25,7 +25,7 @@ uint side_segments() {
 // Whether a side is half an edge.
 bool is_half_side(uint id, uint side) {
     uint bit = side == 0u ? TAG_HALF_0 : side == 3u ? TAG_HALF_3 : 0u;
-    return SIDES == SIDES_HALVES && (patches[id].tag & bit) != 0u;
+    return SIDES == SIDES_HALVES && (patch_basis(id).tag & bit) != 0u;
 }
 
 // The corner at (u,v) that has a vertex record, or 4; the middle of an edge has none, and lies on its halves.

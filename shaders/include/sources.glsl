@@ -21,7 +21,7 @@ layout(std430, set = 0, binding = BINDING_SOURCES) readonly buffer Sources { Mat
 vec3 matrix_row(MatrixSource source, uint row) {
     precise vec3 sum = vec3(0.0);
     for (uint i = source.columns; i-- > 0u;) {
-        sum = sum + weights[source.weights + row * source.columns + i] * load_point(nets[source.net + i]);
+        sum = sum + weight_at(source.weights + row * source.columns + i) * load_point(net_index(source.net + i));
     }
     return sum;
 }

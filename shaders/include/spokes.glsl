@@ -23,7 +23,7 @@ layout(std430, set = 0, binding = BINDING_SPOKES) readonly buffer Spokes {
 
 // The spoke record of side 0 or 3 of a patch.
 SpokeRecord spoke_of(uint id, uint side) {
-    return spokes[(patches[id].edge[side] >> 1u) - first_spoke_edge];
+    return spokes[(patch_edge(id, side) >> 1u) - first_spoke_edge];
 }
 
 bool is_spoke(uint side) {

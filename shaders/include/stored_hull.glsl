@@ -9,12 +9,12 @@ layout(location = 1) in flat uint net_patch[];
 
 // Control points of the patch, which hold all of it; none where it has coefficients of eigenfunctions.
 uint cull_hull_size() {
-    uint form = patches[net_patch[0]].tag & FORM_MASK;
+    uint form = patch_basis(net_patch[0]).tag & FORM_MASK;
     return form == FORM_GREGORY ? GREGORY_POINTS : form == FORM_TRIANGLE ? TRIANGLE_POINTS : 0u;
 }
 
 vec3 cull_hull_point(uint i) {
-    return stored_vector(patches[net_patch[0]].net + i);
+    return stored_vector(patch_basis(net_patch[0]).net + i);
 }
 
 float cull_overshoot() {

@@ -3,7 +3,15 @@
 #define TABLES_GLSL
 #include "bindings.glsl"
 
-layout(std430, set = 0, binding = BINDING_SPANS) readonly buffer Spans { uvec2 spans[]; };
-layout(std430, set = 0, binding = BINDING_INDICES) readonly buffer Indices { uint indices[]; };
+layout(set = 0, binding = BINDING_SPANS) uniform usamplerBuffer spans;
+layout(set = 0, binding = BINDING_INDICES) uniform usamplerBuffer indices;
+
+uvec2 span_of(uint row) {
+    return texelFetch(spans, int(row)).xy;
+}
+
+uint index_at(uint i) {
+    return texelFetch(indices, int(i)).x;
+}
 
 #endif

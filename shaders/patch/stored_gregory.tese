@@ -6,7 +6,7 @@
 #include "coefficients.glsl"
 
 vec3 control(uint i) {
-    return stored_vector(patches[patch_id].net + i);
+    return stored_vector(patch_basis(patch_id).net + i);
 }
 
 void main() {

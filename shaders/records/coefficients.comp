@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
 // The coefficient buffer: control points of patches whose net does not go through a patch list (valence 2, above 12, extraordinary at a boundary), and spoke
 // records. One thread per vector: a row of a matrix times the points of a net less its first point. Twin: osculate_subdiv::twin::coefficients.
 #include "thread.glsl"
@@ -21,13 +22,13 @@ struct ProjectionSource {
 };
 
 layout(std430, set = 0, binding = BINDING_SOURCES) readonly buffer Sources { ProjectionSource sources[]; };
-layout(std430, set = 0, binding = BINDING_COEFFICIENTS) writeonly buffer Coefficients { float coefficients[]; };
+layout(scalar, set = 0, binding = BINDING_COEFFICIENTS) writeonly buffer Coefficients { vec3 coefficients[]; };
 
 // First index of the net at hand.
 uint net_at_hand;
 
 vec3 net_point_at(uint i) {
-    return load_point(nets[net_at_hand + i]);
+    return load_point(net_index(net_at_hand + i));
 }
 
 // The last source whose first vector is not behind this one.
@@ -55,8 +56,5 @@ void main() {
     uint row = vector - source.first;
     vec3 difference = projected_differences(source.weights + row * source.columns, source.columns);
     precise vec3 point = net_point_at(0u) + difference;
-    vec3 r = row < source.absolute_rows ? point : difference;
-    coefficients[3u * vector] = r.x;
-    coefficients[3u * vector + 1u] = r.y;
-    coefficients[3u * vector + 2u] = r.z;
+    coefficients[vector] = row < source.absolute_rows ? point : difference;
 }

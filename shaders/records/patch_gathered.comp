@@ -1,5 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
+#extension GL_EXT_scalar_block_layout : require
 // Control points of quads and triangles with any corners, one thread per corner: p, e+, e-, f+, f-, gathered from the fans of the corners. Derivation:
 // osculate_surface::gregory::{quad_points, triangle_points}. Twin: osculate_subdiv::twin::coefficients.
 #include "thread.glsl"
@@ -18,16 +19,15 @@ struct GatheredPatch {
 };
 
 layout(std430, set = 0, binding = BINDING_SOURCES) readonly buffer Sources { GatheredPatch sources[]; };
-layout(std430, set = 0, binding = BINDING_COEFFICIENTS) buffer Coefficients { float coefficients[]; };
+layout(set = 0, binding = BINDING_COEFFICIENT_TEXELS) uniform samplerBuffer fan_vectors;
+layout(scalar, set = 0, binding = BINDING_COEFFICIENTS) writeonly buffer Coefficients { vec3 coefficients[]; };
 
 vec3 fan_vector(uint i) {
-    return vec3(coefficients[3u * i], coefficients[3u * i + 1u], coefficients[3u * i + 2u]);
+    return texelFetch(fan_vectors, int(i)).xyz;
 }
 
 void store_vector(uint i, vec3 v) {
-    coefficients[3u * i] = v.x;
-    coefficients[3u * i + 1u] = v.y;
-    coefficients[3u * i + 2u] = v.z;
+    coefficients[i] = v;
 }
 
 // The side that leaves a corner for the next one.

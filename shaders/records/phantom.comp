@@ -9,14 +9,14 @@
 #include "points.glsl"
 #include "bindings.glsl"
 
-layout(std430, set = 0, binding = BINDING_INDICES) readonly buffer Indices { uvec4 reflections[]; };
+layout(set = 0, binding = BINDING_QUADRUPLES) uniform usamplerBuffer reflections;
 
 void main() {
     uint phantom = thread_index();
     if (phantom >= kernel.count) {
         return;
     }
-    uvec4 r = reflections[phantom];
+    uvec4 r = texelFetch(reflections, int(phantom));
     precise vec3 first = 2.0 * load_point(r.x) - load_point(r.y);
     precise vec3 second = 2.0 * load_point(r.z) - load_point(r.w);
     precise vec3 point = 2.0 * first - second;

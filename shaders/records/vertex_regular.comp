@@ -15,8 +15,8 @@ void main() {
     if (record >= kernel.count) {
         return;
     }
-    uint patch_id = regular_sources[record] >> 2u;
-    uint centre = CENTRE[regular_sources[record] & 3u];
+    uint patch_id = regular_source(record) >> 2u;
+    uint centre = CENTRE[regular_source(record) & 3u];
     vec3 limit[3];
     vec3 slope[3];
     for (uint j = 0u; j < 3u; ++j) {

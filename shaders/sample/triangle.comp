@@ -6,7 +6,7 @@
 
 // Triangles are always stored.
 vec3 change_basis(uint point, uint basis, uint net_size) {
-    return stored_vector(patches[sampled_patch].net + point);
+    return stored_vector(patch_basis(sampled_patch).net + point);
 }
 
 void main() {

@@ -93,7 +93,11 @@ vec3 shade_factors(vec3 n, vec3 v) {
 void main() {
     vec3 v = normalize(shade_view(frame.eye.xyz - position));
     vec3 n = shade_normal(v);
-    uint tag = patches[patch_id].tag;
+#ifdef SEES_PATCH
+    uint tag = patch_basis(patch_id).tag;
+#else
+    const uint tag = 0u;
+#endif
     vec3 rgb;
     switch (SHADE) {
     case SHADE_NORMALS: rgb = shade_decode(0.5 + 0.5 * shade_unit(normal)); break;

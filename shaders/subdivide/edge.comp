@@ -8,14 +8,14 @@
 #include "points.glsl"
 #include "bindings.glsl"
 
-layout(std430, set = 0, binding = BINDING_INDICES) readonly buffer Indices { uvec4 quads[]; };
+layout(set = 0, binding = BINDING_QUADRUPLES) uniform usamplerBuffer quadruples;
 
 void main() {
     uint edge = thread_index();
     if (edge >= kernel.count) {
         return;
     }
-    uvec4 q = quads[edge];
+    uvec4 q = texelFetch(quadruples, int(edge));
     precise vec3 average = (((load_point(q.x) + load_point(q.y)) + load_point(q.z)) + load_point(q.w)) * 0.25;
     store_point(kernel.first + edge, average);
 }

@@ -12,10 +12,10 @@ void main() {
     if (face >= kernel.count) {
         return;
     }
-    uvec2 span = spans[face];
-    precise vec3 sum = load_point(indices[span.x]);
+    uvec2 span = span_of(face);
+    precise vec3 sum = load_point(index_at(span.x));
     for (uint i = 1u; i < span.y; ++i) {
-        sum = sum + load_point(indices[span.x + i]);
+        sum = sum + load_point(index_at(span.x + i));
     }
     precise vec3 average = sum / float(span.y);
     store_point(kernel.first + face, average);

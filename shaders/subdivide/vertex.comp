@@ -11,7 +11,7 @@
 vec3 smooth_vertex(vec3 old, uvec2 span) {
     precise vec3 sum = vec3(0.0);
     for (uint i = 0u; i < 2u * span.y; ++i) {
-        sum = sum + load_point(indices[span.x + i]);
+        sum = sum + load_point(index_at(span.x + i));
     }
     precise float n = float(span.y);
     precise vec3 r = old * ((n - 2.0) / n) + sum / (n * n);
@@ -19,7 +19,7 @@ vec3 smooth_vertex(vec3 old, uvec2 span) {
 }
 
 vec3 boundary_vertex(vec3 old, uvec2 span) {
-    precise vec3 r = ((load_point(indices[span.x]) + load_point(indices[span.x + 1u])) + 6.0 * old) * 0.125;
+    precise vec3 r = ((load_point(index_at(span.x)) + load_point(index_at(span.x + 1u))) + 6.0 * old) * 0.125;
     return r;
 }
 
@@ -30,6 +30,6 @@ void main() {
     }
     uint target = kernel.first + vertex;
     vec3 old = load_point(target - kernel.old_distance);
-    uvec2 span = spans[vertex];
+    uvec2 span = span_of(vertex);
     store_point(target, span.y > 1u ? smooth_vertex(old, span) : span.y == 1u ? boundary_vertex(old, span) : old);
 }

@@ -1,7 +1,7 @@
 //! A plan's tables on the device.
 
 use bytemuck::{NoUninit, cast_slice};
-use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, Device, Memory};
+use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, Device, Memory, TexelFormat};
 use osculate_shaders::{binding, constant};
 use osculate_subdiv::SurfacePlan;
 
@@ -64,14 +64,26 @@ impl<'a> Uploader<'a> {
         Ok(())
     }
 
+    /// A table that shaders read as a storage buffer.
     pub(crate) fn table<T: NoUninit>(&mut self, name: &str, data: &[T]) -> Result<Buffer, EngineError> {
-        self.check(name, size_of_val(data) as u64)?;
-        Ok(self.device.upload(name, BufferUsage::STORAGE, data)?)
+        self.upload(name, BufferUsage::STORAGE, data)
     }
 
+    /// A table that shaders read as an array of vectors.
+    fn texels<T: NoUninit>(&mut self, name: &str, data: &[T]) -> Result<Buffer, EngineError> {
+        self.upload(name, BufferUsage::TEXELS, data)
+    }
+
+    fn upload<T: NoUninit>(&mut self, name: &str, usage: BufferUsage, data: &[T]) -> Result<Buffer, EngineError> {
+        self.check(name, size_of_val(data) as u64)?;
+        Ok(self.device.upload(name, usage, data)?)
+    }
+
+    /// What shaders compute: they write storage buffers, and read arrays of vectors.
     fn floats(&mut self, name: &str, count: u64) -> Result<Buffer, EngineError> {
         self.check(name, 4 * count)?;
-        let desc = BufferDesc { name, size: 4 * count, usage: BufferUsage::STORAGE, memory: Memory::Device };
+        let usage = BufferUsage::STORAGE | BufferUsage::TEXELS;
+        let desc = BufferDesc { name, size: 4 * count, usage, memory: Memory::Device };
         Ok(self.device.buffer(&desc)?)
     }
 }
@@ -89,29 +101,31 @@ impl SurfaceBuffers {
         let coefficients = up.floats("coefficients", u64::from(plan.vector_count) * 3)?;
         let spokes: Vec<u32> =
             std::iter::once(plan.first_general_edge()).chain(cast_slice(&plan.spokes).iter().copied()).collect();
-        let common = Bindings::new()
-            .with(binding::POINTS, &points)
-            .with(binding::NETS, &up.table("nets", &plan.nets)?)
-            .with(binding::PATCHES, &up.table("patches", &plan.patches)?)
-            .with(binding::WEIGHTS, &up.table("weights", &plan.weights)?)
-            .with(binding::VERTEX_RECORDS, &vertex_records)
-            .with(binding::EDGE_RECORDS, &edge_records)
-            .with(binding::COEFFICIENTS, &coefficients)
+        let common = computed(&points, &vertex_records, &edge_records, &coefficients)
+            .with_texels(binding::NETS, &up.texels("nets", &plan.nets)?, TexelFormat::R32Uint)
+            .with_texels(binding::PATCHES, &up.texels("patches", &plan.patches)?, TexelFormat::Rgba32Uint)
+            .with_texels(binding::WEIGHTS, &up.texels("weights", &plan.weights)?, TexelFormat::R32Float)
             .with(binding::SPOKES, &up.table("spoke records", &spokes)?)
             .with(binding::FANS, &up.table("fans", &plan.gathers.fans)?);
         let levels = plan
             .levels
             .iter()
             .map(|tables| -> Result<LevelBuffers, EngineError> {
-                let face_indices = up.table("face indices", &tables.face_indices)?;
-                let spans = |bindings: Bindings, buffer: &Buffer| bindings.with(binding::SPANS, buffer);
-                let indices = |buffer: &Buffer| common.clone().with(binding::INDICES, buffer);
+                let mut rows = |name: &str, spans: &[[u32; 2]], indices: &[u32]| -> Result<Bindings, EngineError> {
+                    let spans = up.texels(&format!("{name} spans"), spans)?;
+                    let indices = up.texels(&format!("{name} indices"), indices)?;
+                    let rows = common.clone().with_texels(binding::SPANS, &spans, TexelFormat::Rg32Uint);
+                    let rows = rows.with_texels(binding::INDICES, &indices, TexelFormat::R32Uint);
+                    // Faces of four points run through the kernel of edges.
+                    Ok(rows.with_texels(binding::QUADRUPLES, &indices, TexelFormat::Rgba32Uint))
+                };
                 Ok(LevelBuffers {
-                    face: spans(indices(&face_indices), &up.table("face spans", &tables.face_spans)?),
-                    edge: indices(&up.table("edge indices", cast_slice::<_, u32>(&tables.edge_indices))?),
-                    vertex: spans(
-                        indices(&up.table("vertex indices", &tables.vertex_indices)?),
-                        &up.table("vertex spans", &tables.vertex_spans)?,
+                    face: rows("face", &tables.face_spans, &tables.face_indices)?,
+                    vertex: rows("vertex", &tables.vertex_spans, &tables.vertex_indices)?,
+                    edge: common.clone().with_texels(
+                        binding::QUADRUPLES,
+                        &up.texels("edge indices", &tables.edge_indices)?,
+                        TexelFormat::Rgba32Uint,
                     ),
                 })
             })
@@ -120,16 +134,30 @@ impl SurfaceBuffers {
             Ok(common.clone().with(binding::SOURCES, &up.table(name, data)?))
         };
         let (vertices, edges) = (&plan.vertex_records, &plan.edge_records);
+        let (vertex_general, edge_general) = (
+            sources("sources of general vertex records", cast_slice(&vertices.general))?,
+            sources("sources of general edge records", cast_slice(&edges.general))?,
+        );
+        let (edge_gathered, patch_gathered) = (
+            sources("sources of gathered edge records", cast_slice(&plan.gathers.edges))?,
+            sources("sources of gathered patches", cast_slice(&plan.gathers.patches))?,
+        );
+        let projections = sources("sources of coefficients", cast_slice(&plan.projections))?;
+        let mut read = |binding, name: &str, format, data: &[u32]| -> Result<Bindings, EngineError> {
+            Ok(common.clone().with_texels(binding, &up.texels(name, data)?, format))
+        };
+        let (number, regular) = (TexelFormat::R32Uint, binding::REGULAR_SOURCES);
+        let reflections = cast_slice(&plan.reflections);
         Ok(Self {
-            vertex_regular: sources("sources of regular vertex records", &vertices.regular)?,
-            vertex_general: sources("sources of general vertex records", cast_slice(&vertices.general))?,
-            edge_regular: sources("sources of regular edge records", &edges.regular)?,
-            edge_general: sources("sources of general edge records", cast_slice(&edges.general))?,
-            edge_gathered: sources("sources of gathered edge records", cast_slice(&plan.gathers.edges))?,
-            patch_gathered: sources("sources of gathered patches", cast_slice(&plan.gathers.patches))?,
-            projections: sources("sources of coefficients", cast_slice(&plan.projections))?,
-            phantom: common.clone().with(binding::INDICES, &up.table("phantom points", &plan.reflections)?),
-            cage_edges: common.clone().with(binding::INDICES, &up.table("cage edges", cage_edges)?),
+            vertex_regular: read(regular, "sources of regular vertex records", number, &vertices.regular)?,
+            edge_regular: read(regular, "sources of regular edge records", number, &edges.regular)?,
+            phantom: read(binding::QUADRUPLES, "phantom points", TexelFormat::Rgba32Uint, reflections)?,
+            cage_edges: read(binding::INDICES, "cage edges", number, cast_slice(cage_edges))?,
+            vertex_general,
+            edge_general,
+            edge_gathered,
+            patch_gathered,
+            projections,
             staging: staging(device, plan)?,
             points,
             vertex_records,
@@ -149,11 +177,7 @@ impl SurfaceBuffers {
         let mut like = |buffer: &Buffer| up.floats(buffer.name(), buffer.size() / 4);
         let (points, vertex_records) = (like(&self.points)?, like(&self.vertex_records)?);
         let (edge_records, coefficients) = (like(&self.edge_records)?, like(&self.coefficients)?);
-        let pose = Bindings::new()
-            .with(binding::POINTS, &points)
-            .with(binding::VERTEX_RECORDS, &vertex_records)
-            .with(binding::EDGE_RECORDS, &edge_records)
-            .with(binding::COEFFICIENTS, &coefficients);
+        let pose = computed(&points, &vertex_records, &edge_records, &coefficients);
         let posed = |tables: &Bindings| tables.clone().with_all(&pose);
         let level = |level: &LevelBuffers| LevelBuffers {
             face: posed(&level.face),
@@ -181,6 +205,20 @@ impl SurfaceBuffers {
             bytes: up.bytes,
         })
     }
+}
+
+/// What shaders compute, for those that write it and for those that read it.
+fn computed(points: &Buffer, vertex_records: &Buffer, edge_records: &Buffer, coefficients: &Buffer) -> Bindings {
+    let all = [
+        (points, binding::POINTS, binding::POINT_TEXELS),
+        (vertex_records, binding::VERTEX_RECORDS, binding::VERTEX_RECORD_TEXELS),
+        (edge_records, binding::EDGE_RECORDS, binding::EDGE_RECORD_TEXELS),
+        (coefficients, binding::COEFFICIENTS, binding::COEFFICIENT_TEXELS),
+    ];
+    let both = |all: Bindings, (buffer, written, read)| {
+        all.with(written, buffer).with_texels(read, buffer, TexelFormat::Rgb32Float)
+    };
+    all.into_iter().fold(Bindings::new(), both)
 }
 
 fn staging(device: &Device, plan: &SurfacePlan) -> Result<Buffer, EngineError> {

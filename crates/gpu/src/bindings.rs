@@ -2,7 +2,7 @@
 
 use std::{ops::Range, sync::Arc};
 
-use crate::{Buffer, Image, Sampler};
+use crate::{Buffer, Image, Sampler, TexelFormat};
 
 /// Buffers and images by binding number. May hold more than a pipeline uses: each takes those that its shaders declare. Clones are cheap.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -19,6 +19,10 @@ pub(crate) enum Bound {
         /// Bytes; `None` is the whole buffer.
         range: Option<Range<u64>>,
     },
+    Texels {
+        buffer: Buffer,
+        format: TexelFormat,
+    },
     Texture {
         image: Image,
         sampler: Sampler,
@@ -33,6 +37,7 @@ impl Bound {
     pub(crate) fn describe(&self) -> String {
         match self {
             Self::Buffer { buffer, .. } => format!("buffer {:?}", buffer.name()),
+            Self::Texels { buffer, format } => format!("buffer {:?} as {format:?}", buffer.name()),
             Self::Texture { image, .. } => format!("image {:?} with a sampler", image.name()),
             Self::StorageImage { image } => format!("image {:?} without a sampler", image.name()),
         }
@@ -56,6 +61,13 @@ impl Bindings {
     #[must_use]
     pub fn with_range(self, binding: u32, buffer: &Buffer, bytes: Range<u64>) -> Self {
         self.set(binding, Bound::Buffer { buffer: buffer.clone(), range: Some(bytes) })
+    }
+
+    /// Adds a buffer to read as an array of vectors, `samplerBuffer` in GLSL. Made with
+    /// [`BufferUsage::TEXELS`](crate::BufferUsage::TEXELS).
+    #[must_use]
+    pub fn with_texels(self, binding: u32, buffer: &Buffer, format: TexelFormat) -> Self {
+        self.set(binding, Bound::Texels { buffer: buffer.clone(), format })
     }
 
     /// Adds an image to look up with a sampler, `sampler2D` in GLSL. Made with

@@ -13,7 +13,10 @@ use ash::vk;
 use bytemuck::{NoUninit, Pod};
 use gpu_allocator::MemoryLocation;
 
-use crate::{Device, GpuError, Recording, info::TRANSFORM_FEEDBACK, memory::Block, owned::Owned, resource::ResourceId};
+use crate::{
+    Device, GpuError, Recording, TexelFormat, info::TRANSFORM_FEEDBACK, memory::Block, owned::Owned, resource::ResourceId,
+    texels::TexelViews,
+};
 
 bitflags::bitflags! {
     /// What a buffer is for; copying from and to it is always allowed.
@@ -29,6 +32,8 @@ bitflags::bitflags! {
         const CAPTURE = 8;
         /// Attributes of a draw's vertices.
         const VERTEX = 16;
+        /// Array of vectors that shaders read: see [`TexelFormat`](crate::TexelFormat).
+        const TEXELS = 32;
     }
 }
 
@@ -67,8 +72,9 @@ pub struct Buffer {
     inner: Arc<Inner>,
 }
 
-/// Field order is destruction order: the buffer before its memory.
+/// Field order is destruction order: views before the buffer, and that before its memory.
 struct Inner {
+    texels: TexelViews,
     raw: Owned<vk::Buffer>,
     block: Block,
     id: ResourceId,
@@ -100,7 +106,9 @@ impl Device {
                 limit,
             });
         }
-        let real_size = desc.size.max(4).next_multiple_of(4);
+        // A view holds at least one vector.
+        let least = if desc.usage.contains(BufferUsage::TEXELS) { TexelFormat::MOST_BYTES } else { 4 };
+        let real_size = desc.size.max(least).next_multiple_of(4);
         let info = vk::BufferCreateInfo::default().size(real_size).usage(usage_flags(desc.usage));
         // SAFETY: the size is not zero and the usage is one the device has.
         let raw = unsafe { self.raw().create_buffer(&info, None) }
@@ -120,6 +128,7 @@ impl Device {
         unsafe { self.raw().bind_buffer_memory(raw.raw, memory, offset) }
             .map_err(|result| GpuError::from_vulkan(format!("binding memory to buffer {:?}", desc.name), result))?;
         let inner = Inner {
+            texels: TexelViews::default(),
             raw,
             block,
             id: ResourceId::new(),
@@ -323,6 +332,11 @@ impl Buffer {
         self.inner.raw.raw
     }
 
+    /// The buffer as an array of vectors, for `what`.
+    pub(crate) fn texels(&self, format: TexelFormat, what: &str) -> Result<vk::BufferView, GpuError> {
+        self.inner.texels.view(self, format, what)
+    }
+
     pub(crate) fn real_size(&self) -> u64 {
         self.inner.real_size
     }
@@ -360,6 +374,7 @@ fn usage_flags(usage: BufferUsage) -> vk::BufferUsageFlags {
         (BufferUsage::INDEX, vk::BufferUsageFlags::INDEX_BUFFER),
         (BufferUsage::CAPTURE, capture),
         (BufferUsage::VERTEX, vk::BufferUsageFlags::VERTEX_BUFFER),
+        (BufferUsage::TEXELS, vk::BufferUsageFlags::UNIFORM_TEXEL_BUFFER),
     ];
     let copies = vk::BufferUsageFlags::TRANSFER_SRC | vk::BufferUsageFlags::TRANSFER_DST;
     table.into_iter().filter(|(one, _)| usage.contains(*one)).fold(copies, |flags, (_, flag)| flags | flag)

@@ -452,10 +452,11 @@ fn counter_array(counter: Option<&vk::Buffer>) -> (u32, *const vk::Buffer) {
     counter.map_or((0, std::ptr::null()), |counter| (1, std::ptr::from_ref(counter)))
 }
 
-/// What a descriptor write points to: one of the two is meant, by the kind of the descriptor.
+/// What a descriptor write points to: one of them is meant, by the kind of the descriptor.
 #[derive(Default)]
 struct DescriptorInfo {
     buffer: [vk::DescriptorBufferInfo; 1],
+    texels: [vk::BufferView; 1],
     image: [vk::DescriptorImageInfo; 1],
 }
 
@@ -465,6 +466,7 @@ impl DescriptorInfo {
             Content::Buffer { buffer, offset, range } => {
                 Self { buffer: [vk::DescriptorBufferInfo { buffer, offset, range }], ..Self::default() }
             }
+            Content::Texels { view } => Self { texels: [view], ..Self::default() },
             Content::Image { view, sampler, layout } => {
                 let image = vk::DescriptorImageInfo { image_view: view, sampler, image_layout: layout };
                 Self { image: [image], ..Self::default() }
@@ -477,6 +479,7 @@ fn descriptor_write<'i>(one: &Descriptor, info: &'i DescriptorInfo) -> vk::Write
     let write = vk::WriteDescriptorSet::default().dst_binding(one.binding).descriptor_type(descriptor_type(one.kind));
     match one.content {
         Content::Buffer { .. } => write.buffer_info(&info.buffer),
+        Content::Texels { .. } => write.texel_buffer_view(&info.texels),
         Content::Image { .. } => write.image_info(&info.image),
     }
 }

@@ -6,6 +6,7 @@ use ash::{ext, khr, vk};
 
 use crate::format::sample_flag;
 use crate::requirements::supported;
+use crate::texels;
 use crate::{DeviceError, Enabled};
 
 /// The kind of a device, best first.
@@ -81,6 +82,8 @@ pub struct Limits {
     pub max_storage_buffer_range: u64,
     /// Most bytes of a uniform buffer that a shader sees.
     pub max_uniform_buffer_range: u64,
+    /// Most vectors of a buffer that a shader reads as an array of vectors.
+    pub max_texels: u64,
     /// Offsets of storage buffers in bindings are multiples of this, in bytes.
     pub storage_buffer_alignment: u64,
     /// Offsets of uniform buffers in bindings are multiples of this, in bytes.
@@ -165,8 +168,6 @@ pub struct Features {
     pub wireframe: bool,
     /// `pipelineStatisticsQuery`: counts of shader invocations.
     pub pipeline_statistics: bool,
-    /// `scalarBlockLayout`: buffers of three-component vectors without padding.
-    pub scalar_layout: bool,
 }
 
 impl Features {
@@ -176,7 +177,6 @@ impl Features {
         transform_feedback: true,
         wireframe: true,
         pipeline_statistics: true,
-        scalar_layout: true,
     };
 
     /// Those that are not among others.
@@ -187,7 +187,6 @@ impl Features {
             transform_feedback: self.transform_feedback && !others.transform_feedback,
             wireframe: self.wireframe && !others.wireframe,
             pipeline_statistics: self.pipeline_statistics && !others.pipeline_statistics,
-            scalar_layout: self.scalar_layout && !others.scalar_layout,
         }
     }
 }
@@ -251,6 +250,7 @@ pub(crate) fn examine(
     let mut missing = vec!["Vulkan 1.3".to_owned()];
     if modern {
         missing = supported.missing().into_iter().map(str::to_owned).collect();
+        missing.extend(texels::missing(instance, raw));
     }
     if presents && !extensions.swapchain {
         missing.push("VK_KHR_swapchain, which windows need".to_owned());
@@ -418,6 +418,7 @@ fn core_limits(core: &vk::PhysicalDeviceLimits) -> Limits {
         [1, 2, 4, 8, 16, 32].into_iter().filter(|&n| sample_flag(n).is_some_and(|flag| counts.contains(flag)));
     Limits {
         max_storage_buffer_range: core.max_storage_buffer_range.into(),
+        max_texels: core.max_texel_buffer_elements.into(),
         max_uniform_buffer_range: core.max_uniform_buffer_range.into(),
         storage_buffer_alignment: core.min_storage_buffer_offset_alignment,
         uniform_buffer_alignment: core.min_uniform_buffer_offset_alignment,

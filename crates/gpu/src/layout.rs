@@ -70,7 +70,8 @@ impl Interface {
         let position = |kind| match kind {
             ResourceKind::StorageBuffer => 0,
             ResourceKind::UniformBuffer => 1,
-            ResourceKind::Texture(_) => 2,
+            // Vulkan counts these among the sampled images.
+            ResourceKind::Texture(_) | ResourceKind::TexelBuffer(_) => 2,
             ResourceKind::StorageImage(_) => 3,
         };
         let mut counts = [0; 4];
@@ -211,6 +212,7 @@ pub(crate) fn descriptor_type(kind: ResourceKind) -> vk::DescriptorType {
         ResourceKind::UniformBuffer => vk::DescriptorType::UNIFORM_BUFFER,
         ResourceKind::Texture(_) => vk::DescriptorType::COMBINED_IMAGE_SAMPLER,
         ResourceKind::StorageImage(_) => vk::DescriptorType::STORAGE_IMAGE,
+        ResourceKind::TexelBuffer(_) => vk::DescriptorType::UNIFORM_TEXEL_BUFFER,
     }
 }
 

@@ -135,6 +135,7 @@ mod sampler;
 mod select;
 mod shader;
 mod submission;
+mod texels;
 mod texture;
 
 /// Vulkan as this crate is built upon it, for programs that have objects of their own.
@@ -171,3 +172,4 @@ pub use requirements::Enabled;
 pub use sampler::{Filter, Sampler, SamplerDesc, Wrap};
 pub use shader::Shader;
 pub use submission::Submission;
+pub use texels::TexelFormat;

@@ -79,6 +79,7 @@ macro_rules! destroy {
 
 destroy! {
     Buffer by destroy_buffer,
+    BufferView by destroy_buffer_view,
     CommandPool by destroy_command_pool,
     DescriptorSetLayout by destroy_descriptor_set_layout,
     Image by destroy_image,

@@ -93,6 +93,7 @@ pub(crate) struct Descriptor {
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Content {
     Buffer { buffer: vk::Buffer, offset: u64, range: u64 },
+    Texels { view: vk::BufferView },
     Image { view: vk::ImageView, sampler: vk::Sampler, layout: vk::ImageLayout },
 }
 

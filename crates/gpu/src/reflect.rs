@@ -53,6 +53,8 @@ pub enum ResourceKind {
     Texture(Numbers),
     /// `image2D` in GLSL, by the format in its layout.
     StorageImage(Format),
+    /// A buffer read as an array of vectors, `samplerBuffer` in GLSL, by what a vector is made of.
+    TexelBuffer(Numbers),
 }
 
 impl ResourceKind {
@@ -71,6 +73,9 @@ impl std::fmt::Display for ResourceKind {
             Self::Texture(Numbers::Uint) => f.write_str("usampler2D"),
             Self::Texture(Numbers::Int) => f.write_str("isampler2D"),
             Self::StorageImage(format) => write!(f, "storage image of {format:?}"),
+            Self::TexelBuffer(Numbers::Float) => f.write_str("samplerBuffer"),
+            Self::TexelBuffer(Numbers::Uint) => f.write_str("usamplerBuffer"),
+            Self::TexelBuffer(Numbers::Int) => f.write_str("isamplerBuffer"),
         }
     }
 }

@@ -54,8 +54,9 @@ pub struct Enabled {
 type Flag = (&'static str, fn(&mut Enabled) -> &mut vk::Bool32);
 
 /// Features that every use of this crate needs.
-const REQUIRED: [Flag; 5] = [
+const REQUIRED: [Flag; 6] = [
     ("robustBufferAccess", |enabled| &mut enabled.core.robust_buffer_access),
+    ("scalarBlockLayout", |enabled| &mut enabled.vulkan12.scalar_block_layout),
     ("timelineSemaphore", |enabled| &mut enabled.vulkan12.timeline_semaphore),
     ("dynamicRendering", |enabled| &mut enabled.vulkan13.dynamic_rendering),
     ("synchronization2", |enabled| &mut enabled.vulkan13.synchronization2),
@@ -99,7 +100,6 @@ impl Enabled {
         self.core.tessellation_shader = features.tessellation.into();
         self.core.fill_mode_non_solid = features.wireframe.into();
         self.core.pipeline_statistics_query = features.pipeline_statistics.into();
-        self.vulkan12.scalar_block_layout = features.scalar_layout.into();
         self.transform_feedback.transform_feedback = features.transform_feedback.into();
     }
 
@@ -122,7 +122,6 @@ impl Enabled {
                 && self.extensions.contains(&ext::transform_feedback::NAME),
             wireframe: on(self.core.fill_mode_non_solid),
             pipeline_statistics: on(self.core.pipeline_statistics_query),
-            scalar_layout: on(self.vulkan12.scalar_block_layout),
         }
     }
 

@@ -11,7 +11,7 @@ vec3 net_point_at(uint i);
 vec3 weighted_row(uint row, uint net_size) {
     precise vec3 sum = vec3(0.0);
     for (uint i = net_size; i-- > 0u;) {
-        sum = sum + weights[row + i] * net_point_at(i);
+        sum = sum + weight_at(row + i) * net_point_at(i);
     }
     return sum;
 }
@@ -21,7 +21,7 @@ vec3 weighted_differences(uint row, uint net_size) {
     vec3 origin = net_point_at(0u);
     precise vec3 sum = vec3(0.0);
     for (uint i = net_size; i-- > 1u;) {
-        sum = sum + weights[row + i] * (net_point_at(i) - origin);
+        sum = sum + weight_at(row + i) * (net_point_at(i) - origin);
     }
     return sum;
 }
@@ -32,7 +32,7 @@ vec3 projected_differences(uint row, uint net_size) {
     precise vec3 sum = vec3(0.0);
     precise vec3 lost = vec3(0.0);
     for (uint i = net_size; i-- > 1u;) {
-        precise vec3 term = weights[row + i] * (net_point_at(i) - origin) - lost;
+        precise vec3 term = weight_at(row + i) * (net_point_at(i) - origin) - lost;
         precise vec3 next = sum + term;
         lost = (next - sum) - term;
         sum = next;

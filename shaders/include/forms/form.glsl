@@ -33,7 +33,7 @@ SurfacePoint side_point(uint id, uint side, vec2 uv);
 
 // The shared point at (u,v) on a side of a patch, corners excepted, from the cubic record of the edge.
 SurfacePoint cubic_side_point(uint id, uint side, vec2 uv) {
-    uint edge = patches[id].edge[side];
+    uint edge = patch_edge(id, side);
     return edge_record_at(edge >> 1u, side_parameter(id, side, edge & 1u, uv));
 }
 
@@ -45,7 +45,7 @@ bool shared_point(uint id, vec2 uv, out SurfacePoint point) {
     }
     uint corner = recorded_corner(id, uv, side);
     if (corner != 4u) {
-        point = vertex_record_point(patches[id].vertex[corner]);
+        point = vertex_record_point(patch_vertex(id, corner));
     } else {
         point = side_point(id, side, uv);
     }

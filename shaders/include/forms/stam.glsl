@@ -59,23 +59,23 @@ float stam_power(float x, uint m) {
 vec3 stam_weighted(uint table, uint mode, uint level, vec3 c, vec3 coupled) {
     precise vec3 sum = c;
     if (mode == 2u) {
-        sum = sum + (weights[table + STAM_COUPLING] * float(level)) * coupled;
+        sum = sum + (weight_at(table + STAM_COUPLING) * float(level)) * coupled;
     }
-    precise vec3 r = stam_power(weights[table + STAM_RATIOS + mode], level) * sum;
+    precise vec3 r = stam_power(weight_at(table + STAM_RATIOS + mode), level) * sum;
     return r;
 }
 
 // Puts the parts together: p0 + lambda^m (value of mode 1) p1 + mu^m (the others).
 vec3 stam_offset(uint table, uint level, vec4 at, vec3 dominant) {
     precise vec3 r =
-        (stam_power(weights[table + STAM_LAMBDA], level) * at.w) * dominant + stam_power(weights[table + STAM_MU], level) * at.xyz;
+        (stam_power(weight_at(table + STAM_LAMBDA), level) * at.w) * dominant + stam_power(weight_at(table + STAM_MU), level) * at.xyz;
     return r;
 }
 
 // Along the cross product of the derivatives du and dv of both parts: that of the dominant coefficient with itself, zero but for rounding, is left out.
 vec3 stam_plane(uint table, uint level, vec4 du, vec4 dv, vec3 dominant) {
     precise vec3 mixed = cross_product(dominant, du.w * dv.xyz - dv.w * du.xyz);
-    precise vec3 r = mixed + stam_power(weights[table + STAM_MU_OVER_LAMBDA], level) * cross_product(du.xyz, dv.xyz);
+    precise vec3 r = mixed + stam_power(weight_at(table + STAM_MU_OVER_LAMBDA), level) * cross_product(du.xyz, dv.xyz);
     return r;
 }
 
@@ -91,8 +91,8 @@ vec4 stam_combine_differences(vec3 w, vec4 a, vec4 b, vec4 c, vec4 d) {
 
 // Weights of this patch's eigenbasis: the table follows the projection, a square matrix.
 uint stam_table(uint id) {
-    uint modes = patches[id].net_size;
-    return patches[id].basis + modes * modes;
+    uint modes = patch_basis(id).net_size;
+    return patch_basis(id).basis + modes * modes;
 }
 
 // Bezier points of the sub-patch: the function of mode 1 (w), the sum of the others over mu^level (xyz).
@@ -106,16 +106,16 @@ void stam_grid(uint table, uint modes, StamPlace place, out vec4 grid[16]) {
     for (uint mode = modes; mode-- > 2u;) {
         vec4 c = vec4(stam_weighted(table, mode, place.level, control(mode), coupled), 0.0);
         for (uint i = 0u; i < 16u; ++i) {
-            sum[i] = sum[i] + weights[first + 16u * mode + i] * c;
+            sum[i] = sum[i] + weight_at(first + 16u * mode + i) * c;
         }
     }
     for (uint i = 0u; i < 16u; ++i) {
-        grid[i] = vec4(sum[i].xyz, weights[first + 16u + i]);
+        grid[i] = vec4(sum[i].xyz, weight_at(first + 16u + i));
     }
 }
 
 InnerPoint inner_point(uint id, vec2 uv) {
-    uint modes = patches[id].net_size;
+    uint modes = patch_basis(id).net_size;
     uint table = stam_table(id);
     StamPlace place;
     bool exists = stam_place(uv, place);
@@ -153,7 +153,7 @@ vec2 shade_curvature(uint id, vec2 uv) {
         return vec2(0.0);
     }
     vec4 grid[16];
-    stam_grid(table, patches[id].net_size, place, grid);
+    stam_grid(table, patch_basis(id).net_size, place, grid);
     vec3 b[16];
     for (int i = 0; i < 16; ++i) {
         b[i] = stam_offset(table, place.level, grid[i], control(1u));
@@ -176,12 +176,12 @@ SurfacePoint stam_spoke_point(SpokeRecord spoke, float t) {
     for (uint mode = spoke.modes; mode-- > 2u;) {
         vec4 c = vec4(stam_weighted(spoke.table, mode, place.level, stored_vector(spoke.vectors + mode), coupled), 0.0);
         for (uint i = 0u; i < 8u; ++i) {
-            sum[i] = sum[i] + weights[first + 8u * mode + i] * c;
+            sum[i] = sum[i] + weight_at(first + 8u * mode + i) * c;
         }
     }
     vec4 p[8];
     for (uint i = 0u; i < 8u; ++i) {
-        p[i] = vec4(sum[i].xyz, weights[first + 8u + i]);
+        p[i] = vec4(sum[i].xyz, weight_at(first + 8u + i));
     }
     vec4 b = bernstein3(place.uv.x);
     vec3 dominant = stored_vector(spoke.vectors + 1u);

@@ -49,8 +49,9 @@ impl Measured {
 
     /// Bytes of a vertex.
     pub(super) fn vertex_bytes(self) -> u64 {
-        let words = if self == Self::Nothing { constant::GRID_PLACE_WORDS } else { constant::GRID_VERTEX_WORDS };
-        4 * u64::from(words)
+        let vectors =
+            if self == Self::Nothing { constant::GRID_PLACE_VECTORS } else { constant::GRID_VERTEX_VECTORS };
+        12 * u64::from(vectors)
     }
 
     /// Whether it follows from the whole patch, its formula or how it is divided, on its border too (`shade_measures_patch` in

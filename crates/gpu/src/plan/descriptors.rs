@@ -3,7 +3,7 @@
 use ash::vk;
 
 use crate::{
-    Bindings, Buffer, BufferUsage, Format, GpuError, Image, ImageUsage, Numbers, ResourceKind, Sampler, barrier::Scope,
+    Bindings, Buffer, BufferUsage, Format, GpuError, Image, ImageUsage, Numbers, ResourceKind, Sampler, TexelFormat, barrier::Scope,
     bindings::Bound, layout::LayoutBinding,
 };
 
@@ -23,6 +23,9 @@ impl Planner<'_> {
         let content = match (binding.kind, bound) {
             (ResourceKind::StorageBuffer | ResourceKind::UniformBuffer, Bound::Buffer { buffer, range }) => {
                 self.bind_buffer(binding, buffer, range.clone())?
+            }
+            (ResourceKind::TexelBuffer(numbers), Bound::Texels { buffer, format }) => {
+                self.bind_texels(binding, buffer, *format, numbers)?
             }
             (ResourceKind::Texture(numbers), Bound::Texture { image, sampler }) => {
                 self.bind_texture(binding, image, sampler, numbers)?
@@ -57,6 +60,23 @@ impl Planner<'_> {
         let write = Scope::new(binding.writes, vk::AccessFlags2::SHADER_STORAGE_WRITE);
         self.touch_buffer(buffer, read, write)?;
         Ok(Content::Buffer { buffer: buffer.raw(), offset, range })
+    }
+
+    fn bind_texels(
+        &mut self,
+        binding: &LayoutBinding,
+        buffer: &Buffer,
+        format: TexelFormat,
+        numbers: Numbers,
+    ) -> Result<Content, GpuError> {
+        if format.numbers() != numbers {
+            return Err(self.mismatch(binding, &format!("is buffer {:?} as {format:?}", buffer.name())));
+        }
+        let what = format!("binding {} of pass {:?}", binding.binding, self.name);
+        buffer.require(BufferUsage::TEXELS, &what)?;
+        let view = buffer.texels(format, &what)?;
+        self.touch_buffer(buffer, Scope::new(binding.reads, vk::AccessFlags2::SHADER_SAMPLED_READ), Scope::default())?;
+        Ok(Content::Texels { view })
     }
 
     /// Offset and length of what is bound, checked against the buffer and the device.

@@ -26,9 +26,14 @@ pub(super) fn kind(types: &HashMap<Word, &Instruction>, id: Word) -> Result<Reso
 }
 
 fn texture(types: &HashMap<Word, &Instruction>, image: &Instruction) -> Result<ResourceKind, &'static str> {
-    let [Operand::IdRef(number), Operand::Dim(Dim::Dim2D), depth, arrayed, samples, ..] = image.operands.as_slice()
-    else {
-        return Err("an image that is not two-dimensional");
+    let (number, depth, arrayed, samples) = match image.operands.as_slice() {
+        [Operand::IdRef(number), Operand::Dim(Dim::DimBuffer), ..] => {
+            return numbers(types, *number).map(ResourceKind::TexelBuffer);
+        }
+        [Operand::IdRef(number), Operand::Dim(Dim::Dim2D), depth, arrayed, samples, ..] => {
+            (number, depth, arrayed, samples)
+        }
+        _ => return Err("an image that is not two-dimensional"),
     };
     check_plain(arrayed, samples)?;
     if *depth == Operand::LiteralBit32(1) {

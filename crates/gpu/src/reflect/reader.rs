@@ -16,11 +16,12 @@ use super::{
 const MAX_DEPTH: u32 = 32;
 
 /// What a module may need: capabilities that every Vulkan device has, and those whose features are switched on.
-const CAPABILITIES: [Capability; 6] = [
+const CAPABILITIES: [Capability; 7] = [
     Capability::Matrix,
     Capability::Shader,
     Capability::DerivativeControl,
     Capability::ImageQuery,
+    Capability::SampledBuffer,
     Capability::Tessellation,
     // Refused with the device's name by `Device::shader`, where the device lacks it.
     Capability::TransformFeedback,

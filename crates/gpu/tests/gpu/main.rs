@@ -12,6 +12,7 @@ mod present;
 mod reflection;
 mod refusals;
 mod render;
+mod texels;
 mod textures;
 mod threads;
 mod timing;
