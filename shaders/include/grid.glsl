@@ -22,7 +22,7 @@ struct GridPatch {
 };
 
 layout(std430, set = 0, binding = BINDING_GRID_PATCHES) readonly buffer GridPatches { GridPatch grid_patches[]; };
-layout(std430, set = 0, binding = BINDING_GRID_PARAMETERS) readonly buffer GridParameters { float grid_parameters[]; };
+layout(set = 0, binding = BINDING_GRID_PARAMETERS) uniform samplerBuffer grid_parameters;
 
 uint rate_segments(uint rate) {
     return rate & ((1u << GRID_SEGMENT_BITS) - 1u);
@@ -30,7 +30,7 @@ uint rate_segments(uint rate) {
 
 // End `i` of the segments.
 float rate_parameter(uint rate, uint i) {
-    return grid_parameters[(rate >> GRID_SEGMENT_BITS) + i];
+    return texelFetch(grid_parameters, int((rate >> GRID_SEGMENT_BITS) + i)).x;
 }
 
 #endif

@@ -7,7 +7,9 @@ mod measured;
 use std::ops::Range;
 
 use bytemuck::{NoUninit, bytes_of};
-use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, ComputePass, Draw, Memory, Recording, Vertices};
+use osculate_gpu::{
+    Bindings, Buffer, BufferDesc, BufferUsage, ComputePass, Draw, Memory, Recording, TexelFormat, Vertices,
+};
 use osculate_shaders::layout::{GridPatch, KernelPush};
 use osculate_shaders::{binding, constant};
 use osculate_subdiv::PatchForm;
@@ -97,8 +99,10 @@ impl<'a> Grids<'a> {
     ) -> Result<Self, EngineError> {
         let measure = Measured::of(output);
         surface.engine().prepare(surface.grid_kernels(output, layout), [])?;
-        let parameters = upload(surface, "grid parameters", rates.parameters())?;
-        let bindings = surface.patch_bindings().with(binding::GRID_PARAMETERS, &parameters);
+        let device = surface.engine().device();
+        let parameters = device.upload("grid parameters", BufferUsage::TEXELS, rates.parameters())?;
+        let bindings =
+            surface.patch_bindings().with_texels(binding::GRID_PARAMETERS, &parameters, TexelFormat::R32Float);
         Ok(Self { surface, rates, layout, measure, memory, parameters, bindings })
     }
 

@@ -14,8 +14,8 @@ use bytemuck::{NoUninit, Pod};
 use gpu_allocator::MemoryLocation;
 
 use crate::{
-    Device, GpuError, Recording, TexelFormat, info::TRANSFORM_FEEDBACK, memory::Block, owned::Owned, resource::ResourceId,
-    texels::TexelViews,
+    Device, GpuError, Recording, TexelFormat, info::TRANSFORM_FEEDBACK, memory::Block, owned::Owned,
+    resource::ResourceId, texels::TexelViews,
 };
 
 bitflags::bitflags! {

@@ -172,12 +172,8 @@ pub struct Features {
 
 impl Features {
     /// All of them.
-    pub const ALL: Self = Self {
-        tessellation: true,
-        transform_feedback: true,
-        wireframe: true,
-        pipeline_statistics: true,
-    };
+    pub const ALL: Self =
+        Self { tessellation: true, transform_feedback: true, wireframe: true, pipeline_statistics: true };
 
     /// Those that are not among others.
     #[must_use]

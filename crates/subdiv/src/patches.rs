@@ -133,7 +133,7 @@ impl PatchList {
     }
 }
 
-/// What the shaders know of a patch (`PatchRecord` in shaders/include/records.glsl).
+/// What the shaders know of a patch (`patches` in shaders/include/records.glsl).
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Pod, Zeroable)]
 pub struct PatchRecord {

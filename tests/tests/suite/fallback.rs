@@ -107,11 +107,14 @@ fn without_transform_feedback_only_captures_change() {
 #[test]
 fn the_table_of_limits_is_true() {
     let storage = |kind: ResourceKind| kind == ResourceKind::StorageBuffer;
-    let (mut of_stage, mut bindings, mut push) = (0, 0, 0);
+    // Textures and texel buffers count as one.
+    let sampled = |kind: ResourceKind| matches!(kind, ResourceKind::Texture(_) | ResourceKind::TexelBuffer(_));
+    let (mut of_stage, mut sampled_of_stage, mut bindings, mut push) = (0, 0, 0, 0);
     let mut graphics = BTreeSet::new();
     for shader in SHADERS {
         let found = reflect(shader.spirv).unwrap();
         of_stage = of_stage.max(found.resources.iter().filter(|one| storage(one.kind)).count());
+        sampled_of_stage = sampled_of_stage.max(found.resources.iter().filter(|one| sampled(one.kind)).count());
         push = push.max(found.push_constant_size);
         if found.stage == Stage::Compute {
             bindings = bindings.max(found.resources.len());
@@ -128,6 +131,7 @@ fn the_table_of_limits_is_true() {
         number.trim().parse::<usize>().unwrap()
     };
     assert_eq!(stated("maxPerStageDescriptorStorageBuffers"), of_stage);
+    assert_eq!(stated("maxPerStageDescriptorSampledImages"), sampled_of_stage);
     assert_eq!(stated("maxPushDescriptors"), bindings);
     assert_eq!(stated("maxPushConstantsSize"), push.max(MATERIAL_PUSH_OFFSET) as usize);
 }

@@ -2,7 +2,7 @@
 //! makes an edge record can write its vertices at once. Nothing is read per patch but for what lies inside.
 
 use bytemuck::bytes_of;
-use osculate_gpu::{Bindings, Buffer, ComputePass, Recording};
+use osculate_gpu::{Bindings, Buffer, ComputePass, Recording, TexelFormat};
 use osculate_shaders::binding;
 use osculate_shaders::layout::EdgePointsPush;
 
@@ -86,7 +86,7 @@ impl Grids<'_> {
             pipeline: self.surface.engine().kernel(shader)?,
             bindings: tables
                 .clone()
-                .with(binding::GRID_PARAMETERS, &self.parameters)
+                .with_texels(binding::GRID_PARAMETERS, &self.parameters, TexelFormat::R32Float)
                 .with(binding::GRID_VERTICES, &chunk.vertices),
             push: bytes_of(&push).to_vec(),
             groups: groups(push.count),

@@ -49,8 +49,7 @@ impl Measured {
 
     /// Bytes of a vertex.
     pub(super) fn vertex_bytes(self) -> u64 {
-        let vectors =
-            if self == Self::Nothing { constant::GRID_PLACE_VECTORS } else { constant::GRID_VERTEX_VECTORS };
+        let vectors = if self == Self::Nothing { constant::GRID_PLACE_VECTORS } else { constant::GRID_VERTEX_VECTORS };
         12 * u64::from(vectors)
     }
 

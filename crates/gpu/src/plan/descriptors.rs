@@ -3,8 +3,8 @@
 use ash::vk;
 
 use crate::{
-    Bindings, Buffer, BufferUsage, Format, GpuError, Image, ImageUsage, Numbers, ResourceKind, Sampler, TexelFormat, barrier::Scope,
-    bindings::Bound, layout::LayoutBinding,
+    Bindings, Buffer, BufferUsage, Format, GpuError, Image, ImageUsage, Numbers, ResourceKind, Sampler, TexelFormat,
+    barrier::Scope, bindings::Bound, layout::LayoutBinding,
 };
 
 use super::{Content, Descriptor, planner::Planner};

@@ -89,3 +89,49 @@ fn one_buffer_is_read_several_times() {
         }
     });
 }
+
+/// The buffer must have been made for it, hold what the shader reads, and be bound as what the shader declares.
+#[test]
+fn what_shaders_cannot_read_so_is_refused() {
+    with_device(|device| {
+        let pipeline = compute_pipeline(device, "average.comp", AVERAGE);
+        let buffer = |usage| device.upload("words", usage, &[0u32; 1200]).unwrap();
+        let (texels, found) = (buffer(BufferUsage::TEXELS), buffer(BufferUsage::STORAGE));
+        let good = Bindings::new()
+            .with_texels(0, &texels, TexelFormat::Rgb32Float)
+            .with_texels(1, &texels, TexelFormat::Rgba32Uint)
+            .with(2, &found);
+        let run = |bindings| {
+            let mut recording = Recording::new();
+            recording.compute(compute_pass(&pipeline, bindings, 100));
+            device.run(&recording).map(drop)
+        };
+        run(good.clone()).unwrap();
+        let cases = [
+            (good.clone().with_texels(0, &found, TexelFormat::Rgb32Float), "was not made with that usage"),
+            (good.clone().with_texels(0, &texels, TexelFormat::R32Uint), "declares \"points\" as a samplerBuffer"),
+            (good.clone().with(0, &texels), "declares \"points\" as a samplerBuffer"),
+            (good.with_texels(2, &texels, TexelFormat::R32Uint), "as a storage buffer"),
+        ];
+        for (bindings, expected) in cases {
+            let error = run(bindings).unwrap_err().to_string();
+            assert!(error.contains(expected), "{error}");
+        }
+    });
+}
+
+/// An empty buffer can be bound: there is nothing that a shader may read.
+#[test]
+fn an_empty_buffer_is_an_array_of_nothing() {
+    with_device(|device| {
+        let empty = device.upload::<u32>("empty", BufferUsage::TEXELS, &[]).unwrap();
+        let found = device.upload("found", BufferUsage::STORAGE, &[0f32; 1200]).unwrap();
+        let bindings = Bindings::new()
+            .with_texels(0, &empty, TexelFormat::Rgb32Float)
+            .with_texels(1, &empty, TexelFormat::Rgba32Uint)
+            .with(2, &found);
+        let mut recording = Recording::new();
+        recording.compute(compute_pass(&compute_pipeline(device, "average.comp", AVERAGE), bindings, 100));
+        device.run(&recording).unwrap();
+    });
+}

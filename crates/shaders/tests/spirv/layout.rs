@@ -23,8 +23,7 @@ macro_rules! plan_struct {
     };
 }
 
-const PLAN_LAYOUTS: [StructLayout; 7] = [
-    plan_struct!(PatchRecord { vertex, edge, net, basis, net_size, tag }),
+const PLAN_LAYOUTS: [StructLayout; 6] = [
     plan_struct!(MatrixSource { net, weights, columns }),
     plan_struct!(ProjectionSource { net, weights, columns, absolute_rows, first }),
     plan_struct!(SpokeRecord { vectors, table, modes }),
@@ -73,6 +72,22 @@ fn shared_structs_agree_with_the_shaders() {
 fn shared_structs_have_distinct_names() {
     let names: BTreeSet<&str> = shared().map(|layout| layout.name).collect();
     assert_eq!(names.len(), shared().count());
+}
+
+/// Shaders read them as an array of vectors of four numbers (`patch_vertex`, `patch_edge`, `patch_basis` in shaders/include/records.glsl).
+#[test]
+fn records_of_patches_are_three_vectors_of_four_numbers() {
+    use osculate_subdiv::PatchRecord as R;
+    let offsets = [
+        offset_of!(R, vertex),
+        offset_of!(R, edge),
+        offset_of!(R, net),
+        offset_of!(R, basis),
+        offset_of!(R, net_size),
+        offset_of!(R, tag),
+        size_of::<R>(),
+    ];
+    assert_eq!(offsets, [0, 16, 32, 36, 40, 44, 48]);
 }
 
 #[test]
