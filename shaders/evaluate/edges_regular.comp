@@ -5,8 +5,10 @@
 #include "regular_edge.glsl"
 
 void main() {
-    uint source = thread_index();
-    if (source < edges.count) {
-        write_edge_points(edges.first_record + source, regular_edge_record(source));
+    uint thread = thread_index();
+    if (thread < edges.count) {
+        // Sources are numbered as records are.
+        uint edge = edges.first_record + thread;
+        write_edge_points(edge, regular_edge_record(edge));
     }
 }

@@ -4,7 +4,9 @@
 #define BORDER_STAGE_GLSL
 #include "thread.glsl"
 #include "kernel_push.glsl"
+#define SIDES_IN_SEGMENTS
 #include "grid.glsl"
+#include "grid_sides.glsl"
 #include "grid_store.glsl"
 
 // From the grid: number of sides, and places on them.
@@ -38,7 +40,7 @@ void write_side(uint grid_patch, uint side, uint id) {
     for (uint i = 1u; i < last; ++i) {
         vec2 uv = side_uv(side, rate_parameter(rate, i), rate_parameter(rate, last - i));
 #ifdef CUBIC_SIDES
-        SurfacePoint point = edge_point(record, edge_parameter(side, edge & 1u, uv));
+        SurfacePoint point = edge_point(record, side_parameter(id, side, edge & 1u, uv));
 #else
         SurfacePoint point = side_point(id, side, uv);
 #endif
@@ -57,8 +59,8 @@ void write_border() {
     uint id = grid_patches[grid_patch].patch_id;
     uint owned = grid_patches[grid_patch].owned >> side;
     if ((owned & 1u) == 1u) {
-        SurfacePoint corner = vertex_record_point(patch_vertex(id, side));
-        store_border_vertex(grid_patches[grid_patch].corner_vertex[side], id, side_uv(side, 0.0, 1.0), corner);
+        vec2 uv = side_uv(side, 0.0, 1.0);
+        store_border_vertex(grid_patches[grid_patch].corner_vertex[side], id, uv, corner_point(id, side, uv));
     }
     if (((owned >> GRID_OWNED_SIDES) & 1u) == 1u) {
         write_side(grid_patch, side, id);

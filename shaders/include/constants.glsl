@@ -22,6 +22,8 @@
 #define GRID_PLACE_VECTORS 2
 // Bits of a rate that hold the number of segments; the others say where the parameters begin.
 #define GRID_SEGMENT_BITS 7
+// Where the parameters of edges of unrefined faces begin in GridParameters, if there are such faces.
+#define GRID_WHOLE_PARAMETERS 3
 // The first bit of GridPatch.owned that stands for a side.
 #define GRID_OWNED_SIDES 4
 
@@ -40,10 +42,12 @@
 #define TAG_UNREFINED 128
 #define TAG_VALENCE_SHIFT 8
 
-// Values of SIDES: each side is an edge with a record of its own; some are halves of an edge; each is the edge of an unrefined face.
+// Values of SIDES: each side is an edge with a record of its own; some are halves of an edge; each is the edge of an unrefined face;
+// what the patch's tag says.
 #define SIDES_PLAIN 0
 #define SIDES_HALVES 1
 #define SIDES_UNREFINED 2
+#define SIDES_BY_TAG 3
 
 // FanRecord.cross_end (osculate_surface::gregory::CrossEnd)
 #define CROSS_END_PLAIN 0

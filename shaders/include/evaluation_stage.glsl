@@ -34,6 +34,15 @@ layout(location = 2) out vec2 out_measure;
 layout(location = 3) out flat uint out_patch;
 #endif
 
+uint refined_segments() {
+    return uint(ceil(frame.level));
+}
+
+float whole_edge_parameter(uint i, uint segments) {
+    precise float t = float(i) / float(segments);
+    return t;
+}
+
 // Writes the vertex at the tessellation coordinates.
 void write_vertex() {
     vec2 uv = gl_TessCoord.xy;

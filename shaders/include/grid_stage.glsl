@@ -3,7 +3,9 @@
 // the include.
 #ifndef GRID_STAGE_GLSL
 #define GRID_STAGE_GLSL
+#define SIDES_IN_SEGMENTS
 #include "grid.glsl"
+#include "grid_sides.glsl"
 #include "kernel_push.glsl"
 #include "points.glsl"
 #include "coefficients.glsl"

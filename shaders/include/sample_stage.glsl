@@ -6,7 +6,7 @@
 #include "points.glsl"
 #include "coefficients.glsl"
 #include "bases/net.glsl"
-#define SIDES_DEFAULT SIDES_HALVES
+#define SIDES_DEFAULT SIDES_BY_TAG
 #include "forms/form.glsl"
 
 struct SampleRequest {

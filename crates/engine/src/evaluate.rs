@@ -108,13 +108,16 @@ impl<'a> Grids<'a> {
 
     /// The chunks, made one at a time.
     pub(crate) fn chunks(&self) -> impl Iterator<Item = Result<GridChunk, EngineError>> {
-        let desc = GridPlanDesc {
+        GridPlan::new(self.grid_plan()).into_chunks().map(|chunk| self.upload(chunk))
+    }
+
+    fn grid_plan(&self) -> GridPlanDesc<'_> {
+        GridPlanDesc {
             surface: self.surface.plan(),
             rates: self.rates,
             layout: self.layout,
             max_vertices: self.max_vertices(),
-        };
-        GridPlan::new(desc).into_chunks().map(|chunk| self.upload(chunk))
+        }
     }
 
     fn max_vertices(&self) -> u32 {
@@ -187,7 +190,7 @@ impl<'a> Grids<'a> {
         };
         Ok(ComputePass {
             name: kernel.shader.to_owned(),
-            pipeline: engine.kernel(KernelKey { shader: kernel.shader, measure: self.measure })?,
+            pipeline: engine.kernel(self.surface.grid_kernel_key(kernel.shader, self.measure))?,
             bindings: bindings.clone(),
             push: bytes_of(&push).to_vec(),
             groups: fold(groups),
@@ -233,7 +236,11 @@ impl Surface {
         let kernels = move |form| self.grid_kernels_of(form, measure, layout);
         let shaders = self.plan().lists.iter().flat_map(move |list| kernels(list.kind.form()));
         let edges = by_record::EDGE_KERNELS.into_iter().filter(move |_| layout == Layout::ByRecord);
-        shaders.map(move |kernel| KernelKey { shader: kernel.shader, measure }).chain(edges.map(KernelKey::from))
+        shaders.map(move |kernel| self.grid_kernel_key(kernel.shader, measure)).chain(edges.map(KernelKey::from))
+    }
+
+    fn grid_kernel_key(&self, shader: &'static str, measure: Measured) -> KernelKey {
+        KernelKey { shader, measure, sides_by_tag: self.has_unrefined() }
     }
 
     fn grid_kernels_of(
@@ -262,8 +269,10 @@ impl Surface {
     pub(crate) fn grid_rates(&self, tessellation: &Tessellation) -> Result<GridRates, EngineError> {
         // Refuses levels out of range.
         self.max_segments(tessellation)?;
-        self.refuse_unrefined("the compute evaluator (--evaluator compute)")?;
         Ok(match tessellation.factors {
+            Factors::Uniform(level) if self.has_unrefined() => {
+                GridRates::where_needed(level, self.plan().whole_edge_count())
+            }
             Factors::Uniform(level) => GridRates::uniform(level, tessellation.spacing),
             Factors::Adaptive { .. } => GridRates::per_edge(&self.edge_factors(tessellation)?, tessellation.spacing),
         })

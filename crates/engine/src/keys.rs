@@ -88,11 +88,9 @@ impl VertexKey {
     /// If the vertex is not of this plan.
     pub fn of(plan: &SurfacePlan, vertex: &CapturedVertex) -> Self {
         let record = &plan.patches[vertex.patch as usize];
-        let side = match corner_of(record, vertex.uv) {
-            // The middle of an edge, on its halves.
-            Some(1) if record.is_half(0) => Some(0),
-            Some(3) if record.is_half(3) => Some(3),
-            Some(corner) => return Self::Vertex(record.vertex[corner]),
+        let side = match corner_of(record, vertex.uv).map(|corner| (corner, record.half_to(corner))) {
+            Some((corner, None)) => return Self::Vertex(record.vertex[corner]),
+            Some((_, half)) => half,
             None => common_side(record, &[vertex.uv]),
         };
         match side {

@@ -85,6 +85,8 @@ pub(crate) struct KernelKey {
     pub(crate) shader: &'static str,
     /// What the vertices that it makes, if it does, hold beside position and normal.
     pub(crate) measure: Measured,
+    /// Whether it looks for halves of edges and unrefined faces.
+    pub(crate) sides_by_tag: bool,
 }
 
 /// No kernels at all, for [`Engine::prepare`].
@@ -93,16 +95,17 @@ pub(crate) const NO_KERNELS: [KernelKey; 0] = [];
 impl From<&'static str> for KernelKey {
     /// A kernel that knows of no shades.
     fn from(shader: &'static str) -> Self {
-        Self { shader, measure: Measured::Parameters }
+        Self { shader, measure: Measured::Parameters, sides_by_tag: false }
     }
 }
 
 impl KernelKey {
     /// What tools call it.
     fn name(self) -> String {
+        let beside = if self.sides_by_tag { ", beside unrefined" } else { "" };
         match self.measure {
-            Measured::Parameters => self.shader.to_owned(),
-            measure => format!("{}, {}", self.shader, measure.name()),
+            Measured::Parameters => format!("{}{beside}", self.shader),
+            measure => format!("{}, {}{beside}", self.shader, measure.name()),
         }
     }
 }
@@ -169,9 +172,11 @@ impl Engine {
         let key = key.into();
         self.pipelines().kernels.get_or_make(key, || {
             let shader = self.shader(key.shader)?;
-            let specialization =
-                &[(constant::SPEC_SHADE, key.measure.shade()), (constant::SPEC_GRID_GROUP, self.grid_group())];
-            let desc = ComputePipelineDesc { name: &key.name(), shader: &shader, specialization };
+            let mut specialization =
+                vec![(constant::SPEC_SHADE, key.measure.shade()), (constant::SPEC_GRID_GROUP, self.grid_group())];
+            // Else it is as the shader says: kernels that sample always look.
+            specialization.extend(key.sides_by_tag.then_some((constant::SPEC_SIDES, constant::SIDES_BY_TAG)));
+            let desc = ComputePipelineDesc { name: &key.name(), shader: &shader, specialization: &specialization };
             self.timed(|| Ok(self.device().compute_pipeline(&desc)?), ComputePipeline::name)
         })
     }

@@ -211,6 +211,15 @@ impl PatchRecord {
             _ => false,
         }
     }
+
+    /// The half side that ends at a corner which is the middle of an edge, if the corner is one.
+    pub fn half_to(&self, corner: usize) -> Option<usize> {
+        match corner {
+            1 if self.is_half(0) => Some(0),
+            3 if self.is_half(3) => Some(3),
+            _ => None,
+        }
+    }
 }
 
 /// What a final quad is, from its corner 0; isolation makes the other corners regular. The bits are those of [`PatchRecord::tag`].

@@ -202,6 +202,12 @@ impl SurfacePlan {
         self.lists.first().filter(|list| list.kind == PatchKind::Unrefined).map_or(0, |list| list.count)
     }
 
+    /// How many edge records are those of unrefined faces, which come first.
+    pub fn whole_edge_count(&self) -> u32 {
+        let unrefined = 4 * self.unrefined_count();
+        self.edge_records.regular.partition_point(|&slot| slot < unrefined) as u32
+    }
+
     /// Number of edge records: of regular nets, of other nets, gathered.
     pub fn edge_record_count(&self) -> usize {
         self.edge_records.count() + self.gathers.edges.len()

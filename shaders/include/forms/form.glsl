@@ -37,6 +37,15 @@ SurfacePoint cubic_side_point(uint id, uint side, vec2 uv) {
     return edge_record_at(edge >> 1u, side_parameter(id, side, edge & 1u, uv));
 }
 
+// The point at a corner of a patch, at (u,v).
+SurfacePoint corner_point(uint id, uint corner, vec2 uv) {
+    uint half_side = half_side_to(id, corner);
+    if (half_side != 4u) {
+        return cubic_side_point(id, half_side, uv);
+    }
+    return vertex_record_point(patch_vertex(id, corner));
+}
+
 // The shared point at (u,v), if (u,v) is on an edge or a corner of the patch.
 bool shared_point(uint id, vec2 uv, out SurfacePoint point) {
     uint side = side_of(uv);

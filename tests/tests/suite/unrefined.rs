@@ -2,15 +2,15 @@
 
 use glam::DVec3;
 use osculate::{
-    Cage, CheckReport, Culling, Engine, EngineError, Evaluator, Factors, Part, PatchKind, RenderDesc, Scheme, Shade,
-    Spacing, Surface, SurfaceDesc, Tessellation, check, render,
+    Cage, CheckReport, Culling, Engine, EngineDesc, EngineError, Evaluator, Factors, Part, PatchKind, RenderDesc,
+    Scheme, Shade, Spacing, Surface, SurfaceDesc, Tessellation, check, render,
 };
 use osculate::{Camera, Refinement};
 use osculate_cage::CagePart;
 use osculate_shaders::layout::SampleRequest;
 use osculate_tests::exact::captured;
 use osculate_tests::mutation::{Mutation, mutated};
-use osculate_tests::{gpu, gpu_with_shaders, zoo};
+use osculate_tests::{gpu, gpu_with, gpu_with_shaders, zoo};
 
 const NEEDED: SurfaceDesc =
     SurfaceDesc { scheme: Scheme::Gregory2, boundary: None, refinement: Refinement::WhereNeeded };
@@ -20,13 +20,18 @@ fn surface(engine: &Engine, cage: &Cage, scheme: Scheme) -> Surface {
 }
 
 fn assert_watertight(name: &str, surface: &Surface, level: f32) {
-    let report = check(surface, &Tessellation::uniform(level)).unwrap();
-    assert!(report.is_watertight() && report.weld.open == 0, "{name}, level {level}: {report:?}");
+    let [report, in_compute] = [Evaluator::Tessellator, Evaluator::Compute].map(|evaluator| {
+        let report = check(surface, &Tessellation { evaluator, ..Tessellation::uniform(level) }).unwrap();
+        assert!(report.is_watertight() && report.weld.open == 0, "{name}, level {level}, {evaluator:?}: {report:?}");
+        report
+    });
     // Two triangles a cell, in unrefined faces of twice as many segments each way.
     let (plan, n) = (surface.plan(), level.ceil() as u64);
     let cells = plan.patches.len() as u64 + 3 * u64::from(plan.unrefined_count());
     let all_quads = plan.patches.iter().all(|patch| patch.sides() == 4);
-    assert!(!all_quads || report.triangles == cells * 2 * n * n, "{name}, level {level}: {report:?}");
+    for report in [report, in_compute].iter().filter(|_| all_quads) {
+        assert_eq!(report.triangles, cells * 2 * n * n, "{name}, level {level}");
+    }
 }
 
 #[test]
@@ -53,6 +58,21 @@ fn whole_faces_and_halves_of_edges_are_watertight() {
         assert_watertight(&format!("{name}, moved"), &surface, 6.0);
     }
     assert_watertight("grid", &surface(&gpu, &zoo::grid(4, 4), Scheme::Gregory2), 32.0);
+}
+
+/// Faces and the halves beside them in chunks of their own: each half is then made by the patch that has it, and the middle by one of both.
+#[test]
+fn halves_without_their_whole_are_watertight() {
+    let cage = zoo::shipped("dragon");
+    for grid_vertices in [1, 200, 3000] {
+        let gpu = gpu_with(EngineDesc { grid_vertices: Some(grid_vertices), ..EngineDesc::default() });
+        let surface = surface(&gpu, &cage, Scheme::Gregory2);
+        for level in [1.0, 3.0] {
+            let tessellation = Tessellation { evaluator: Evaluator::Compute, ..Tessellation::uniform(level) };
+            let report = check(&surface, &tessellation).unwrap();
+            assert!(report.is_watertight() && report.weld.open == 0, "{grid_vertices}, {level}: {report:?}");
+        }
+    }
 }
 
 /// The evaluation stage divides integers where the sampling kernel halves parameters, and both are the surface that is refined everywhere.
@@ -91,15 +111,18 @@ fn pictures_are_those_of_the_refined_surface_culled_or_not() {
     let cage = zoo::shipped("dragon");
     let surfaces = [Refinement::Everywhere, Refinement::WhereNeeded]
         .map(|refinement| Surface::new(&gpu, &cage, &SurfaceDesc { refinement, ..NEEDED }).unwrap());
-    for shade in [Shade::Lit, Shade::Valence, Shade::Wireframe] {
-        let desc = RenderDesc { shade, tessellation: Tessellation::uniform(4.0), ..RenderDesc::fit(&cage, [160, 120]) };
+    let shades = [Shade::Lit, Shade::Valence, Shade::Wireframe];
+    let evaluators = [Evaluator::Tessellator, Evaluator::Compute];
+    for (shade, evaluator) in shades.into_iter().flat_map(|shade| evaluators.map(|evaluator| (shade, evaluator))) {
+        let tessellation = Tessellation { evaluator, ..Tessellation::uniform(4.0) };
+        let desc = RenderDesc { shade, tessellation, ..RenderDesc::fit(&cage, [160, 120]) };
         let draw = |surface: &Surface, culling| render(&gpu, &[surface], &RenderDesc { culling, ..desc }).unwrap().rgba;
         let [refined, needed] = [0, 1].map(|i| draw(&surfaces[i], Culling::NONE));
         let differ = |(a, b): &(&[u8; 4], &[u8; 4])| (0..4).any(|i| a[i].abs_diff(b[i]) > 24);
         let pixels = refined.as_chunks::<4>().0.iter().zip(needed.as_chunks::<4>().0);
         let different = pixels.filter(differ).count();
-        assert!(different < 40, "{shade:?}: {different} pixels differ");
-        assert!(draw(&surfaces[1], Culling::UNSEEN) == needed, "{shade:?}: culling changes the picture");
+        assert!(different < 40, "{shade:?}, {evaluator:?}: {different} pixels differ");
+        assert!(draw(&surfaces[1], Culling::UNSEEN) == needed, "{shade:?}, {evaluator:?}: culling changes the picture");
     }
 }
 
@@ -114,7 +137,6 @@ fn what_they_are_not_for_is_refused_by_name() {
         (Tessellation { factors: adaptive, ..uniform }, "--adaptive"),
         (Tessellation { spacing: Spacing::Odd, ..uniform }, "--spacing"),
         (Tessellation::uniform(32.5), "--level"),
-        (Tessellation { evaluator: Evaluator::Compute, ..uniform }, "--evaluator"),
     ] {
         for error in [
             check(&surface, &tessellation).unwrap_err(),
@@ -142,25 +164,22 @@ const PATH: &str = "include/side_parameter.glsl";
 
 #[test]
 fn a_wrong_half_is_noticed() {
-    let from = "i += side == 3u ? segments : 0u;";
-    sabotaged(Mutation { path: PATH, from, to: "i += side == 0u ? segments : 0u;" }, 3.0, |report| {
-        report.split_positions > 0
-    });
+    let mutation = Mutation { path: PATH, from: "(is_half && side == 3u ?", to: "(is_half && side == 0u ?" };
+    sabotaged(mutation, 3.0, |report| report.split_positions > 0);
 }
 
 /// Without it, points differ by what the tessellator rounds.
 #[test]
 fn parameters_that_are_not_taken_from_integers_are_noticed() {
-    let from = "uint i = uint(place);";
-    let to = "if (!is_half) { return edge_parameter(side, flip, uv); } uint i = uint(place);";
+    let from = "#ifdef SIDES_IN_SEGMENTS\n    uint half_segments";
+    let to = "#ifdef SIDES_IN_SEGMENTS\n    if (!is_half) { return edge_parameter(side, flip, uv); }\n    uint half_segments";
     sabotaged(Mutation { path: PATH, from, to }, 3.0, |report| report.split_positions > 0);
 }
 
 #[test]
 fn a_middle_that_is_taken_for_a_corner_is_noticed() {
-    let from = "if (corner == 3u && is_half_side(id, 3u)) {";
-    let to = "if (corner == 3u && is_half_side(id, 3u) && false) {";
-    sabotaged(Mutation { path: PATH, from, to }, 2.0, |report| report.split_positions > 0);
+    let mutation = Mutation { path: PATH, from: "corner == 3u && is_half_side(id, 3u) ? 3u", to: "corner == 4u ? 3u" };
+    sabotaged(mutation, 2.0, |report| report.split_positions > 0);
 }
 
 /// As many segments on an unrefined face as on its neighbours leave every second point without a partner.

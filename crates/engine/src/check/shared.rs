@@ -4,11 +4,11 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use osculate_subdiv::SurfacePlan;
+use osculate_subdiv::{PatchRecord, SurfacePlan};
 
 use super::{CheckReport, bits};
 use crate::CapturedVertex;
-use crate::keys::common_side;
+use crate::keys::{common_side, edge_parameter};
 
 /// Vertices and triangles of a chunk in one layout.
 pub(super) struct Mesh<'a> {
@@ -41,10 +41,10 @@ pub(super) fn compare(
             *edges.entry((place, triangle[k], triangle[next])).or_default() += 1;
         }
     }
-    let patches_of_edge = patches_of_edge(plan, patches);
+    let patches_of_edge = patches_of_sides(plan, patches);
     for (&(place, a, b), &count) in &edges {
         report.over_shared += u64::from(count - 1);
-        let ends_here = matches!(place, Place::Side(edge) if patches_of_edge.get(&edge) == Some(&1));
+        let ends_here = patches_of_edge.get(&place) == Some(&1);
         report.open += u64::from(!ends_here && !edges.contains_key(&(place, b, a)));
     }
 }
@@ -55,8 +55,8 @@ type Edge = (Place, u32, u32);
 /// Where an edge of a triangle lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 enum Place {
-    /// On an edge record.
-    Side(u32),
+    /// On an edge record: on its first half or the second, if it is the edge of an unrefined face, since patches may have one of them; else on the first.
+    Side(u32, usize),
     /// In a patch.
     Inside(u32),
 }
@@ -66,18 +66,29 @@ impl Place {
     fn of(plan: &SurfacePlan, from: &CapturedVertex, to: &CapturedVertex) -> Self {
         let record = &plan.patches[from.patch as usize];
         match common_side(record, &[from.uv, to.uv]) {
-            Some(side) => Self::Side(record.edge[side] / 2),
+            Some(side) if record.is_unrefined() => {
+                let middle = [0, 1].map(|i| 0.5 * (from.uv[i] + to.uv[i]));
+                Self::Side(record.edge[side] / 2, usize::from(edge_parameter(record, side, middle) > 0.5))
+            }
+            Some(side) => Self::Side(record.edge[side] / 2, half_of(record, side)),
             None => Self::Inside(from.patch),
         }
     }
 }
 
-/// How many patches of a chunk each edge record has: on the border of the chunk, as on that of the surface, one.
-fn patches_of_edge(plan: &SurfacePlan, patches: Range<u32>) -> HashMap<u32, u32> {
+/// The half of an edge record that a side of a refined patch is: the record is walked the other way.
+fn half_of(record: &PatchRecord, side: usize) -> usize {
+    usize::from(record.is_half(side) && side == 0)
+}
+
+/// How many patches of a chunk each edge record has, or each half of it: on the border of the chunk, as on that of the surface, one.
+fn patches_of_sides(plan: &SurfacePlan, patches: Range<u32>) -> HashMap<Place, u32> {
     let mut count = HashMap::new();
     for record in &plan.patches[patches.start as usize..patches.end as usize] {
-        for edge in &record.edge[..record.sides()] {
-            *count.entry(edge / 2).or_default() += 1;
+        for side in 0..record.sides() {
+            let half = half_of(record, side);
+            let halves = if record.is_unrefined() { 0..2 } else { half..half + 1 };
+            halves.for_each(|half| *count.entry(Place::Side(record.edge[side] / 2, half)).or_default() += 1);
         }
     }
     count

@@ -55,7 +55,7 @@ impl Grids<'_> {
         Ok(Some(recording))
     }
 
-    /// Adds the pass that makes vertices of edge records from `first` on.
+    /// Adds the passes that make vertices of edge records from `first` on.
     fn record_edges(&self, chunk: &GridChunk, first: u32, recording: &mut Recording) -> Result<(), EngineError> {
         let edges = first..self.surface.plan().edge_record_count() as u32;
         self.record_edge_points(chunk, EDGE_KERNELS[0], &self.surface.buffers().patches, edges, recording)
@@ -69,28 +69,25 @@ impl Grids<'_> {
         edges: std::ops::Range<u32>,
         recording: &mut Recording,
     ) -> Result<(), EngineError> {
-        let Some(rate) = self.rates.uniform_rate().filter(|&id| self.rates.rate(id).segments() > 1) else {
-            return Ok(());
-        };
-        if edges.is_empty() {
-            return Ok(());
+        for run in self.grid_plan().edge_runs().into_iter().flatten() {
+            let first_record = edges.start.max(run.edges.start);
+            let count = edges.end.min(run.edges.end).saturating_sub(first_record);
+            if count == 0 || self.rates.rate(run.rate).segments() < 2 {
+                continue;
+            }
+            let (first_vertex, rate) = (run.vertex_of(0), self.rates.word(run.rate));
+            let push = EdgePointsPush { count, first_record, first_vertex, rate };
+            recording.compute(ComputePass {
+                name: shader.to_owned(),
+                pipeline: self.surface.engine().kernel(shader)?,
+                bindings: tables
+                    .clone()
+                    .with_texels(binding::GRID_PARAMETERS, &self.parameters, TexelFormat::R32Float)
+                    .with(binding::GRID_VERTICES, &chunk.vertices),
+                push: bytes_of(&push).to_vec(),
+                groups: groups(push.count),
+            });
         }
-        let push = EdgePointsPush {
-            count: edges.len() as u32,
-            first_record: edges.start,
-            first_vertex: self.surface.plan().vertex_records.count() as u32,
-            rate: self.rates.word(rate),
-        };
-        recording.compute(ComputePass {
-            name: shader.to_owned(),
-            pipeline: self.surface.engine().kernel(shader)?,
-            bindings: tables
-                .clone()
-                .with_texels(binding::GRID_PARAMETERS, &self.parameters, TexelFormat::R32Float)
-                .with(binding::GRID_VERTICES, &chunk.vertices),
-            push: bytes_of(&push).to_vec(),
-            groups: groups(push.count),
-        });
         Ok(())
     }
 }
@@ -105,7 +102,8 @@ mod tests {
     use super::*;
     use crate::draw::Sides;
     use crate::{
-        Cage, Device, DeviceDesc, Engine, EngineDesc, Scheme, Shade, Spacing, SurfaceDesc, Target, Tessellation,
+        Cage, Device, DeviceDesc, Engine, EngineDesc, Refinement, Scheme, Shade, Spacing, SurfaceDesc, Target,
+        Tessellation,
     };
 
     const OUTPUT: Output = Output::Fill(Target { color: Format::Rgba8Unorm, samples: 1 }, Shade::Lit, Sides::Both);
@@ -117,6 +115,11 @@ mod tests {
 
     fn cage(name: &str) -> Cage {
         Cage::read(&Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets/cages").join(name)).unwrap()
+    }
+
+    fn needed(engine: &Engine, cage: &Cage) -> Surface {
+        let refinement = Refinement::WhereNeeded;
+        Surface::new(engine, cage, &SurfaceDesc { refinement, ..SurfaceDesc::default() }).unwrap()
     }
 
     fn surface(engine: &Engine, cage: &Cage, scheme: Scheme) -> Surface {
@@ -170,28 +173,36 @@ mod tests {
             ("torus.obj", Scheme::Stam),
         ] {
             let cage = cage(name);
-            let mut surface = surface(&engine, &cage, scheme);
-            assert!(suits(&surface, OUTPUT), "{name}");
-            for tessellation in
-                [1.0, 2.0, 3.3].map(|level| Tessellation { spacing: Spacing::Odd, ..Tessellation::uniform(level) })
-            {
-                surface.set_points(cage.positions()).unwrap();
-                let shared = evaluated(&surface, &tessellation, Layout::Shared, as_recorded);
-                let by_record = evaluated(&surface, &tessellation, Layout::ByRecord, as_recorded);
-                assert!(shared == by_record, "{name}, {scheme}, {tessellation:?}");
-                let moved: Vec<DVec3> =
-                    cage.positions().iter().map(|p| *p + 0.1 * DVec3::new(p.y.sin(), p.z.cos(), p.x)).collect();
-                surface.write_points(&moved).unwrap();
-                let updated = evaluated(&surface, &tessellation, Layout::ByRecord, |grids, chunk, frame| {
-                    grids.update(chunk, frame).unwrap().unwrap()
-                });
-                surface.set_points(&moved).unwrap();
-                let shared = evaluated(&surface, &tessellation, Layout::Shared, as_recorded);
-                assert!(shared == updated, "{name}, {scheme}, {tessellation:?}, moved");
-                assert!(shared != by_record, "it has moved");
-            }
+            bits_are_those_that_patches_number(
+                &format!("{name}, {scheme}"),
+                &cage,
+                surface(&engine, &cage, scheme),
+                Spacing::Odd,
+            );
         }
+        let cage = cage("dragon.obj");
+        bits_are_those_that_patches_number("where needed", &cage, needed(&engine, &cage), Spacing::Equal);
         assert_eq!(engine.device().validation_messages(), [""; 0]);
+    }
+
+    fn bits_are_those_that_patches_number(name: &str, cage: &Cage, mut surface: Surface, spacing: Spacing) {
+        assert!(suits(&surface, OUTPUT), "{name}");
+        for tessellation in [1.0, 2.0, 3.3].map(|level| Tessellation { spacing, ..Tessellation::uniform(level) }) {
+            surface.set_points(cage.positions()).unwrap();
+            let shared = evaluated(&surface, &tessellation, Layout::Shared, as_recorded);
+            let by_record = evaluated(&surface, &tessellation, Layout::ByRecord, as_recorded);
+            assert!(shared == by_record, "{name}, {tessellation:?}");
+            let moved: Vec<DVec3> =
+                cage.positions().iter().map(|p| *p + 0.1 * DVec3::new(p.y.sin(), p.z.cos(), p.x)).collect();
+            surface.write_points(&moved).unwrap();
+            let updated = evaluated(&surface, &tessellation, Layout::ByRecord, |grids, chunk, frame| {
+                grids.update(chunk, frame).unwrap().unwrap()
+            });
+            surface.set_points(&moved).unwrap();
+            let shared = evaluated(&surface, &tessellation, Layout::Shared, as_recorded);
+            assert!(shared == updated, "{name}, {tessellation:?}, moved");
+            assert!(shared != by_record, "it has moved");
+        }
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! One chunk: the vertices of its patches and the triangles between them.
 
+use std::collections::HashMap;
 use std::ops::Range;
 
 use osculate_shaders::layout::GridPatch;
@@ -7,7 +8,7 @@ use osculate_subdiv::{NONE, PatchRecord, SurfacePlan};
 use rayon::prelude::*;
 
 use crate::grid::Layout;
-use crate::grid::plan::{GridPlanDesc, PatchGrid};
+use crate::grid::plan::{EdgeRun, GridPlanDesc, PatchGrid};
 
 /// Vertices and triangles of consecutive patches.
 ///
@@ -54,6 +55,10 @@ pub(crate) struct Numbering {
     of_vertex: Vec<u32>,
     /// First vertex of each edge record; they lie in the record's direction.
     of_edge: Vec<u32>,
+    /// Vertex at the middle of the edge of an unrefined face that is in no patch of the chunk, by edge record.
+    of_middle: HashMap<u32, u32>,
+    /// Runs of edges, if vertices are numbered by records.
+    runs: Option<[EdgeRun; 2]>,
     /// The records that have vertices.
     vertices: Vec<u32>,
     edges: Vec<u32>,
@@ -65,6 +70,8 @@ impl Numbering {
             next: 0,
             of_vertex: vec![NONE; surface.vertex_records.count()],
             of_edge: vec![NONE; surface.edge_record_count()],
+            of_middle: HashMap::new(),
+            runs: None,
             vertices: Vec::new(),
             edges: Vec::new(),
         }
@@ -72,9 +79,9 @@ impl Numbering {
 
     /// Forgets the last chunk.
     fn begin(&mut self, desc: &GridPlanDesc<'_>) {
-        let by_record = |id| desc.first_by_record(desc.rates.rate(id).segments())[1];
-        let numbered = desc.rates.uniform_rate().filter(|_| desc.layout == Layout::ByRecord);
-        self.next = numbered.map_or(0, by_record);
+        self.runs = if desc.layout == Layout::ByRecord { desc.edge_runs() } else { None };
+        self.next = self.runs.as_ref().map_or(0, |[_, last]| last.end() as u32);
+        self.of_middle.clear();
         self.vertices.drain(..).for_each(|record| self.of_vertex[record as usize] = NONE);
         self.edges.drain(..).for_each(|record| self.of_edge[record as usize] = NONE);
     }
@@ -88,10 +95,16 @@ impl Numbering {
     /// Numbers the vertices of the next patch.
     fn number(&mut self, desc: &GridPlanDesc<'_>, patch: u32, record: &PatchRecord, grid: &PatchGrid) -> GridPatch {
         let mut numbered = grid.record(patch);
-        if desc.layout == Layout::ByRecord {
+        if let Some(runs) = &self.runs {
+            let first = |edge: u32| runs[usize::from(!runs[0].edges.contains(&edge))].vertex_of(edge);
             for (k, &segments) in grid.pattern.sides().iter().enumerate() {
-                numbered.corner_vertex[k] = record.vertex[k];
-                numbered.side_vertex[k] = desc.first_by_record(segments)[0] + (segments - 1) * (record.edge[k] / 2);
+                let half = Half { side: k, segments };
+                let side = first(record.edge[k] / 2);
+                numbered.side_vertex[k] = if record.is_half(k) { half.first_in(side) } else { side };
+                numbered.corner_vertex[k] = match record.half_to(k) {
+                    Some(side) => half.middle_in(first(record.edge[side] / 2)),
+                    None => record.vertex[k],
+                };
             }
         } else {
             self.number_border(desc.layout == Layout::Shared, record, grid, &mut numbered);
@@ -103,24 +116,74 @@ impl Numbering {
     /// Numbers the vertices on the border of the next patch that are its own or, if they are shared, that no other has numbered.
     fn number_border(&mut self, shared: bool, record: &PatchRecord, grid: &PatchGrid, numbered: &mut GridPatch) {
         for (k, &segments) in grid.pattern.sides().iter().enumerate() {
-            let corner = if shared { self.of_vertex[record.vertex[k] as usize] } else { NONE };
+            let half = Half { side: k, segments };
+            let corner = match record.half_to(k) {
+                _ if !shared => NONE,
+                Some(side) => self.middle(record.edge[side] / 2, half),
+                None => self.of_vertex[record.vertex[k] as usize],
+            };
             numbered.corner_vertex[k] = corner;
             if corner == NONE {
                 numbered.owned |= 1 << k;
                 numbered.corner_vertex[k] = self.take(1);
-                self.of_vertex[record.vertex[k] as usize] = numbered.corner_vertex[k];
-                self.vertices.push(record.vertex[k]);
+                self.keep_corner(record, k, numbered.corner_vertex[k]);
             }
-            let edge = (record.edge[k] / 2) as usize;
-            let side = if shared { self.of_edge[edge] } else { NONE };
+            let edge = record.edge[k] / 2;
+            let side = match self.of_edge[edge as usize] {
+                first if shared && first != NONE && record.is_half(k) => half.first_in(first),
+                first if shared => first,
+                _ => NONE,
+            };
             numbered.side_vertex[k] = side;
             if side == NONE {
                 numbered.owned |= 16 << k;
                 numbered.side_vertex[k] = self.take(segments - 1);
-                self.of_edge[edge] = numbered.side_vertex[k];
-                self.edges.push(edge as u32);
+                // No other patch has that half, unless it has all of the edge, and then it comes before.
+                if !record.is_half(k) {
+                    self.of_edge[edge as usize] = numbered.side_vertex[k];
+                    self.edges.push(edge);
+                }
             }
         }
+    }
+
+    /// The vertex at the middle of an edge of which some patch has a half, [`NONE`] if it has none yet.
+    fn middle(&self, edge: u32, half: Half) -> u32 {
+        match self.of_edge[edge as usize] {
+            NONE => self.of_middle.get(&edge).copied().unwrap_or(NONE),
+            first => half.middle_in(first),
+        }
+    }
+
+    /// Remembers the vertex at a corner.
+    fn keep_corner(&mut self, record: &PatchRecord, corner: usize, vertex: u32) {
+        if let Some(side) = record.half_to(corner) {
+            self.of_middle.insert(record.edge[side] / 2, vertex);
+        } else {
+            self.of_vertex[record.vertex[corner] as usize] = vertex;
+            self.vertices.push(record.vertex[corner]);
+        }
+    }
+}
+
+/// A side that is half the edge of an unrefined face, which has all vertices of the edge in the record's direction. That is the face's, so the side is walked
+/// against it.
+#[derive(Clone, Copy)]
+struct Half {
+    side: usize,
+    /// Segments of the half.
+    segments: u32,
+}
+
+impl Half {
+    /// The first vertex along the half, in the record's direction, of those of the edge from number `first` on.
+    fn first_in(self, first: u32) -> u32 {
+        if self.side == 0 { first + self.segments } else { first }
+    }
+
+    /// The vertex at the middle of the edge.
+    fn middle_in(self, first: u32) -> u32 {
+        first + self.segments - 1
     }
 }
 
@@ -174,7 +237,7 @@ fn write_group(records: &[PatchRecord], grids: &[PatchGrid], patches: &[GridPatc
 
 #[cfg(test)]
 mod tests {
-    use std::collections::{HashMap, HashSet};
+    use std::collections::HashSet;
 
     use osculate_cage::{Cage, read_obj};
     use osculate_subdiv::{PlanDesc, Scheme};

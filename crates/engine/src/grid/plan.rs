@@ -74,19 +74,23 @@ impl<'a> GridPlan<'a> {
 }
 
 impl GridPlanDesc<'_> {
-    /// Numbers of the first vertex along an edge and of the first inside a patch, if vertices are numbered by records.
-    pub(crate) fn first_by_record(&self, segments: u32) -> [u32; 2] {
-        let vertices = self.surface.vertex_records.count() as u32;
-        [vertices, vertices + (segments - 1) * self.surface.edge_record_count() as u32]
+    /// The edges in runs that are divided alike, and where their vertices are if they are numbered by records; `None` if each may be divided in its own way.
+    pub(crate) fn edge_runs(&self) -> Option<[EdgeRun; 2]> {
+        let runs = self.rates.runs(self.surface.edge_record_count() as u32)?;
+        let mut next = self.surface.vertex_records.count() as u64;
+        Some(runs.map(|(edges, rate)| {
+            let run = EdgeRun { first_vertex: next, between: self.rates.rate(rate).segments() - 1, rate, edges };
+            next = run.end();
+            run
+        }))
     }
 
-    /// How many vertices there are if they are numbered by records; `None` if edges are not all divided alike.
+    /// How many vertices there are if they are numbered by records; `None` if edges are not divided alike, but for those of unrefined faces.
     pub(crate) fn count_by_record(&self) -> Option<u64> {
-        let segments = self.rates.rate(self.rates.uniform_rate()?).segments();
-        let (vertices, edges) = (self.surface.vertex_records.count(), self.surface.edge_record_count());
+        let [_, last] = self.edge_runs()?;
         let inside = |record| u64::from(self.grid(record).pattern.inner_count());
         let inside: u64 = self.surface.patches.par_iter().map(inside).sum();
-        Some(vertices as u64 + u64::from(segments - 1) * edges as u64 + inside)
+        Some(last.end() + inside)
     }
 
     /// How a patch is divided: inside as finely as the finer of two opposite sides, or as the finest of three.
@@ -96,7 +100,7 @@ impl GridPlanDesc<'_> {
 
     fn quad(&self, record: &PatchRecord) -> PatchGrid {
         let rates = self.rates;
-        let sides = record.edge.map(|edge| rates.of_edge(edge / 2));
+        let sides = [0, 1, 2, 3].map(|side| rates.of_side(record, side));
         let inner = [rates.finer(sides[0], sides[2]), rates.finer(sides[1], sides[3])];
         let segments = |id| rates.rate(id).segments();
         let pattern = Pattern::quad(sides.map(segments), inner.map(segments));
@@ -115,6 +119,29 @@ impl GridPlanDesc<'_> {
         let [a, b, c] = sides.map(|id| rates.word(id));
         // Equal segments need no parameters.
         PatchGrid { pattern, side_rate: [a, b, c, 0], inner_rate: [pattern.inner_segments()[0]; 2] }
+    }
+}
+
+/// Consecutive edge records that are divided alike, with vertices that are numbered by records.
+#[derive(Clone, Debug)]
+pub(crate) struct EdgeRun {
+    pub(crate) edges: Range<u32>,
+    pub(crate) rate: RateId,
+    /// Vertices of each edge, without its ends.
+    between: u32,
+    /// Vertex number of the first vertex of the first edge.
+    first_vertex: u64,
+}
+
+impl EdgeRun {
+    /// Vertex number after the last one of the last edge.
+    pub(crate) fn end(&self) -> u64 {
+        self.first_vertex + u64::from(self.between) * self.edges.len() as u64
+    }
+
+    /// Vertex number of the first vertex of edge record `edge`, which may be any if only the numbers of those of the run are to come out right.
+    pub(crate) fn vertex_of(&self, edge: u32) -> u32 {
+        (self.first_vertex as u32).wrapping_add(self.between.wrapping_mul(edge.wrapping_sub(self.edges.start)))
     }
 }
 

@@ -1,5 +1,9 @@
 //! The rates of all edges of a surface, and the table of their parameters that the kernels read.
 
+use std::ops::Range;
+
+use osculate_shaders::constant;
+use osculate_subdiv::PatchRecord;
 use rayon::prelude::*;
 
 use crate::Spacing;
@@ -18,6 +22,12 @@ impl RateId {
 #[derive(PartialEq)]
 enum OfEdges {
     All(RateId),
+    /// Those of unrefined faces, whose records are the first, and the others.
+    Two {
+        whole: RateId,
+        whole_count: u32,
+        others: RateId,
+    },
     Each(Vec<RateId>),
 }
 
@@ -35,6 +45,16 @@ impl GridRates {
     pub(crate) fn uniform(factor: f32, spacing: Spacing) -> Self {
         let mut table = Self::new();
         table.of_edges = OfEdges::All(table.add(Rate::new(factor, spacing)));
+        table
+    }
+
+    /// One number of equal segments for all sides of refined patches; of the edge records the first `whole_count` are those of unrefined faces, which have twice as many.
+    pub(crate) fn where_needed(level: f32, whole_count: u32) -> Self {
+        let mut table = Self::new();
+        debug_assert_eq!(table.parameters.len() as u32, constant::GRID_WHOLE_PARAMETERS);
+        let whole = table.add(Rate::new(2.0 * level.ceil(), Spacing::Equal));
+        let others = table.add(Rate::new(level, Spacing::Equal));
+        table.of_edges = OfEdges::Two { whole, whole_count, others };
         table
     }
 
@@ -74,14 +94,32 @@ impl GridRates {
     pub(crate) fn of_edge(&self, edge: u32) -> RateId {
         match &self.of_edges {
             OfEdges::All(id) => *id,
+            OfEdges::Two { whole, whole_count, others } => {
+                if edge < *whole_count {
+                    *whole
+                } else {
+                    *others
+                }
+            }
             OfEdges::Each(ids) => ids[edge as usize],
         }
     }
 
-    /// The rate of all edges, if they have the same.
-    pub(crate) fn uniform_rate(&self) -> Option<RateId> {
+    /// Rate of a side of a patch: half an edge has that of edges between refined patches.
+    pub(crate) fn of_side(&self, record: &PatchRecord, side: usize) -> RateId {
         match &self.of_edges {
-            OfEdges::All(id) => Some(*id),
+            OfEdges::Two { others, .. } if record.is_half(side) => *others,
+            _ => self.of_edge(record.edge[side] / 2),
+        }
+    }
+
+    /// The edge records, `count` in all, in at most two runs of edges that have the same rate; `None` if each may have its own.
+    pub(crate) fn runs(&self, count: u32) -> Option<[(Range<u32>, RateId); 2]> {
+        match self.of_edges {
+            OfEdges::All(id) => Some([(0..count, id), (count..count, id)]),
+            OfEdges::Two { whole, whole_count, others } => {
+                Some([(0..whole_count, whole), (whole_count..count, others)])
+            }
             OfEdges::Each(_) => None,
         }
     }
@@ -142,6 +180,19 @@ mod tests {
         let table = GridRates::per_edge(&[3.25, 3.5, 3.25], Spacing::Odd);
         let [a, b, c] = [0, 1, 2].map(|edge| table.of_edge(edge));
         assert_eq!((table.finer(a, b), table.finer(b, a), table.finer(a, c)), (b, b, a));
+    }
+
+    #[test]
+    fn edges_of_unrefined_faces_have_twice_as_many_segments() {
+        let table = GridRates::where_needed(2.3, 5);
+        let segments = |id| table.rate(id).segments();
+        assert_eq!([4, 5].map(|edge| segments(table.of_edge(edge))), [6, 3]);
+        let word = table.word(table.of_edge(0));
+        assert_eq!(word >> GridRates::OFFSET_SHIFT, constant::GRID_WHOLE_PARAMETERS);
+        let half = PatchRecord { edge: [9, 8, 0, 0], tag: PatchRecord::HALF_0, ..PatchRecord::default() };
+        assert_eq!([0, 1].map(|side| segments(table.of_side(&half, side))), [3, 6]);
+        let runs = table.runs(7).unwrap();
+        assert_eq!(runs.map(|(edges, id)| (edges, segments(id))), [(0..5, 6), (5..7, 3)]);
     }
 
     #[test]
