@@ -1,7 +1,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 // New vertex points: (n-2)/n V + P/n + Q/n; n = 1 marks a boundary vertex (1:6:1 with its two boundary neighbours), n = 0 a corner that stays
-// (report, section 3.1, row V of Figure 2). Twin: osculate_subdiv::twin::vertex_points.
+// (report, section 3.1, row V of Figure 2). With OLD_IN_ROW rows end with V: not all new points are there, so its distance varies. Twin: osculate_subdiv::twin::vertex_points.
 #define POINTS_WRITABLE
 #include "thread.glsl"
 #include "kernel_push.glsl"
@@ -29,7 +29,11 @@ void main() {
         return;
     }
     uint target = kernel.first + vertex;
-    vec3 old = load_point(target - kernel.old_distance);
     uvec2 span = span_of(vertex);
+#ifdef OLD_IN_ROW
+    vec3 old = load_point(index_at(span.x + 2u * span.y));
+#else
+    vec3 old = load_point(target - kernel.old_distance);
+#endif
     store_point(target, span.y > 1u ? smooth_vertex(old, span) : span.y == 1u ? boundary_vertex(old, span) : old);
 }

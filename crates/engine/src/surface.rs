@@ -214,11 +214,12 @@ impl Surface {
         let (faces, edges, vertices) =
             (tables.face_count() as u32, tables.edge_count() as u32, tables.vertex_count() as u32);
         let face_shader = if tables.quads { "subdivide/edge.comp" } else { "subdivide/face.comp" };
+        let vertex_shader = if tables.old_in_rows { "subdivide/vertex.comp#listed" } else { "subdivide/vertex.comp" };
         let first_edge = tables.first_new + faces;
         [
             (face_shader, &buffers.face, faces, tables.first_new),
             ("subdivide/edge.comp", &buffers.edge, edges, first_edge),
-            ("subdivide/vertex.comp", &buffers.vertex, vertices, first_edge + edges),
+            (vertex_shader, &buffers.vertex, vertices, first_edge + edges),
         ]
         .map(|(shader, bindings, count, first)| {
             let push = KernelPush { count, first, old_distance: tables.old_distance() };

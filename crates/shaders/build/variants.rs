@@ -55,6 +55,10 @@ const SURFACE_STAGE: &str = "shade/surface.frag";
 const EVALUATION_FOLDER: &str = "evaluate/";
 const UNMAPPED_STAGES: [&str; 3] = ["evaluate/factors.comp", "evaluate/edges.comp", "evaluate/edges_regular.comp"];
 
+/// The kernel of new vertex points, which finds old ones by their distance or in its table.
+const VERTEX_STAGE: &str = "subdivide/vertex.comp";
+const OLD_POINTS: &[Choice] = &[("", &[]), ("listed", &[("OLD_IN_ROW", None)])];
+
 /// The variants of the file at a path: none if it is no stage.
 pub(crate) fn of(path: &str) -> Vec<Variant> {
     let axes: &[&[Choice]] = match Stage::of_path(path) {
@@ -62,6 +66,7 @@ pub(crate) fn of(path: &str) -> Vec<Variant> {
         Ok(_) if path == NET_SIZE_STAGE => &[NET_SIZES],
         Ok(_) if path == GRID_STAGE => &[SEEN],
         Ok(_) if path == SURFACE_STAGE => &[SEEN, MAPS],
+        Ok(_) if path == VERTEX_STAGE => &[OLD_POINTS],
         Ok(Stage::Compute) if path.starts_with(EVALUATION_FOLDER) && !UNMAPPED_STAGES.contains(&path) => &[MAPS],
         Ok(_) => &[],
         Err(_) => return Vec::new(),

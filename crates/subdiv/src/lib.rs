@@ -9,6 +9,7 @@ mod error;
 mod gather;
 mod lists;
 mod location;
+mod needed;
 mod nets;
 mod part;
 mod patches;

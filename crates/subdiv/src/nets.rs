@@ -5,6 +5,7 @@ use std::iter::once;
 
 use osculate_surface::NetKind;
 
+use crate::needed::NeededPoints;
 use crate::patches::{PatchKind, Tag};
 use crate::unrefined::regular_face_net;
 use crate::{Connectivity, NONE};
@@ -49,6 +50,8 @@ pub(crate) struct FinalMesh<'a, M> {
     pub(crate) first_old: u32,
     /// What each old vertex makes of the final quads about it.
     pub(crate) tags: Vec<Tag>,
+    /// The points that are computed, if not all are.
+    pub(crate) needed: Option<NeededPoints>,
 }
 
 impl<M: Connectivity> FinalMesh<'_, M> {
@@ -59,7 +62,8 @@ impl<M: Connectivity> FinalMesh<'_, M> {
 
     /// Number of points.
     pub(crate) fn point_count(&self) -> usize {
-        self.old.face_count() + self.old.edge_count() + self.old.vertex_count()
+        let all = || self.old.face_count() + self.old.edge_count() + self.old.vertex_count();
+        self.needed.as_ref().map_or_else(all, NeededPoints::len)
     }
 
     /// What the quad is, by its corner 0.
@@ -69,17 +73,22 @@ impl<M: Connectivity> FinalMesh<'_, M> {
 
     /// Face point of the old face on the left of a half-edge.
     fn face(&self, h: u32) -> u32 {
-        self.first_point + self.old.face(h)
+        let face = self.old.face(h);
+        self.first_point + self.needed.as_ref().map_or(face, |needed| needed.face(face))
     }
 
     /// Edge point of a half-edge.
     fn edge(&self, h: u32) -> u32 {
-        self.first_point + self.old.face_count() as u32 + self.old.edge(h)
+        let edge = self.old.edge(h);
+        let number = || self.old.face_count() as u32 + edge;
+        self.first_point + self.needed.as_ref().map_or_else(number, |needed| needed.edge(edge))
     }
 
     /// Vertex point of the origin of a half-edge.
     fn vertex(&self, h: u32) -> u32 {
-        self.first_point + (self.old.face_count() + self.old.edge_count()) as u32 + self.old.origin(h)
+        let vertex = self.old.origin(h);
+        let number = || (self.old.face_count() + self.old.edge_count()) as u32 + vertex;
+        self.first_point + self.needed.as_ref().map_or_else(number, |needed| needed.vertex(vertex))
     }
 
     /// Corners V, E, F, E' of a quad.

@@ -7,6 +7,7 @@ use rayon::prelude::*;
 
 use crate::gather::PatchNets;
 use crate::lists::PatchOrder;
+use crate::needed::NeededPoints;
 use crate::nets::FinalMesh;
 use crate::part::FaceSizes;
 use crate::patches::{LIST_VALENCES, Tag};
@@ -143,7 +144,7 @@ impl SurfacePlan {
     /// Plans the patches of the mesh after one step on `mesh`, the last of `levels`.
     fn finish<M: Connectivity>(
         mesh: &M,
-        levels: Vec<RefineTables>,
+        mut levels: Vec<RefineTables>,
         (rule, desc): (BoundaryRule, &PlanDesc),
         mut locator: Locator,
         is_drawn: impl Fn(u32) -> bool + Sync,
@@ -157,7 +158,13 @@ impl SurfacePlan {
             Refinement::WhereNeeded => unrefined_faces(mesh, &is_drawn),
         };
         let first_old = levels.last().map_or(0, |level| level.first_old);
-        let mesh = FinalMesh { old: mesh, first_point, first_old, tags };
+        let cage_points = levels.first().map_or(0, |level| level.vertex_count() as u32);
+        let is_refined = |quad: u32| is_drawn(quad) && !unrefined[mesh.face(quad) as usize];
+        let needed = unrefined.contains(&true).then(|| NeededPoints::new(mesh, is_refined));
+        if let (Some(needed), Some(last)) = (&needed, levels.last_mut()) {
+            *last = needed.tables(last);
+        }
+        let mesh = FinalMesh { old: mesh, first_point, first_old, tags, needed };
         let order = PatchOrder::new(&mesh, is_drawn, &unrefined);
         locator.leave(unrefined);
         let mut weights = WeightTable::default();
@@ -169,7 +176,7 @@ impl SurfacePlan {
             rule,
             scheme,
             steps: levels.len() as u32,
-            cage_points: levels.first().map_or(0, |level| level.vertex_count() as u32),
+            cage_points,
             levels,
             point_count: first_phantom + nets.phantoms.reflections.len() as u32,
             first_phantom,

@@ -1,5 +1,7 @@
 //! A set of numbers that tells how many of its members lie below another.
 
+use rayon::prelude::*;
+
 /// A set as bits, with the count of members before each word of 64.
 pub(crate) struct RankedSet {
     words: Vec<u64>,
@@ -20,6 +22,13 @@ impl RankedSet {
             })
             .collect();
         Self { words, before, count }
+    }
+
+    /// The numbers below `count` that are members by `is_member`.
+    pub(crate) fn of(count: usize, is_member: impl Fn(u32) -> bool + Sync) -> Self {
+        let bits = |word: usize| 64 * word..count.min(64 * word + 64);
+        let word = |word| bits(word).fold(0, |bits, n| bits | u64::from(is_member(n as u32)) << (n % 64));
+        Self::new((0..count.div_ceil(64)).into_par_iter().with_min_len(64).map(word).collect())
     }
 
     /// Number of members.

@@ -27,6 +27,8 @@ pub struct RefineTables {
     pub vertex_indices: Vec<u32>,
     /// All old faces are quads, so face points may run through the edge kernel.
     pub quads: bool,
+    /// The rows of V end with the vertex itself: not all new points are there, so that it is not always as far away ([`Self::old_distance`]).
+    pub old_in_rows: bool,
 }
 
 impl RefineTables {
@@ -38,6 +40,7 @@ impl RefineTables {
         Self {
             first_old,
             first_new,
+            old_in_rows: false,
             quads: face_spans.iter().all(|span| span[1] == 4),
             face_spans,
             face_indices,
@@ -53,6 +56,7 @@ impl RefineTables {
         Self {
             first_old,
             first_new: first_old + old.vertex_count() as u32,
+            old_in_rows: false,
             quads: face_spans.iter().all(|span| span[1] == 4),
             face_spans,
             face_indices,

@@ -45,8 +45,11 @@ pub fn edge_points(tables: &RefineTables, points: &mut [Vec3]) {
 pub fn vertex_points(tables: &RefineTables, points: &mut [Vec3]) {
     let first = tables.first_new as usize + tables.face_count() + tables.edge_count();
     for (vertex, &[offset, valence]) in tables.vertex_spans.iter().enumerate() {
-        let old = points[first + vertex - tables.old_distance() as usize];
         let at = |i: u32| points[tables.vertex_indices[(offset + i) as usize] as usize];
+        let old = match tables.old_in_rows {
+            true => at(2 * valence),
+            false => points[first + vertex - tables.old_distance() as usize],
+        };
         points[first + vertex] = match valence {
             0 => old,
             1 => ((at(0) + at(1)) + 6.0 * old) * 0.125,

@@ -54,6 +54,7 @@ fn a_regular_torus_is_not_refined() {
     let lists: Vec<_> = plan.lists.iter().map(|list| (list.kind, list.count)).collect();
     assert_eq!(lists, [(PatchKind::Unrefined, 20)]);
     assert_eq!((plan.vertex_record_count(), plan.edge_record_count()), (20, 40));
+    assert_eq!(plan.point_count, 20, "no new points");
     // The points of the cage, in rows from (-1,-1) on.
     let net: Vec<u32> = (0..16).map(|i| at(columns + i % 4 - 1, rows + i / 4 - 1)).collect();
     assert_eq!(plan.nets[..16], net);
@@ -75,6 +76,9 @@ fn the_rest_of_a_sheet_is_refined() {
     let inside_refined = 4 * 16;
     assert_eq!(plan.edge_record_count(), 24 + 2 * 36 + inside_refined);
     assert_eq!(plan.vertex_record_count(), 36 + 36 + 16);
+    // Not made are points about the four vertices in the middle, which lie between unrefined faces alone: theirs, those of edges and the face between them.
+    let step = &plan.levels[0];
+    assert_eq!([step.face_count(), step.edge_count(), step.vertex_count()], [25 - 1, 60 - 4, 36 - 4]);
     let halves = plan.patches.iter().map(|patch| [0, 3].iter().filter(|&&side| patch.is_half(side)).count());
     assert_eq!(halves.sum::<usize>(), 24);
 }
@@ -140,6 +144,24 @@ fn unrefined_faces_stand_for_their_four_children() {
             } else {
                 assert_eq!((needed.quads[patch as usize], found.uv), (quad, [0.25, 0.5]), "{name}");
             }
+        }
+    }
+}
+
+/// The points that are made have the bits that they have where all are.
+#[test]
+fn points_that_are_made_are_those_of_the_refined_cage() {
+    for Case { name, cage, needed, everywhere } in cases() {
+        let start: Vec<Vec3> = cage.positions().iter().map(|p| p.as_vec3()).collect();
+        let (some, all) = (twin::points(&needed, &start), twin::points(&everywhere, &start));
+        assert!(some.len() <= all.len() && needed.point_count as usize == some.len(), "{name}");
+        let regular = |patch: &PatchRecord| patch.kind() == PatchKind::Regular;
+        for (patch, &quad) in needed.patches.iter().zip(&needed.quads).filter(|(patch, _)| regular(patch)) {
+            let child = &everywhere.patches[everywhere.patch_of_quad[quad as usize] as usize];
+            let net = |plan: &SurfacePlan, points: &[Vec3], patch: &PatchRecord| {
+                [0, 5, 15].map(|i| points[plan.nets[patch.net as usize + i] as usize])
+            };
+            assert_eq!(net(&needed, &some, patch), net(&everywhere, &all, child), "{name}: {patch:?}");
         }
     }
 }
