@@ -3,7 +3,7 @@
 use arbitrary::{Result, Unstructured};
 use glam::Vec3;
 use osculate_cage::{BoundaryRule, Cage, CageDesc, CageError, RepairDesc, inspect, repair};
-use osculate_subdiv::{NONE, PlanDesc, PlanError, Scheme, SurfacePlan, twin};
+use osculate_subdiv::{NONE, PlanDesc, PlanError, Refinement, Scheme, SurfacePlan, twin};
 
 use crate::mesh;
 use crate::readers::{check_cage, is_repairable};
@@ -61,16 +61,22 @@ fn repaired(desc: CageDesc, options: RepairDesc) -> std::result::Result<Cage, Ca
 
 fn check_plan(cage: &Cage, case: &Case) {
     let &Case { scheme, rule, .. } = case;
-    match SurfacePlan::build(cage, &PlanDesc { boundary: Some(rule), scheme, ..PlanDesc::default() }) {
+    for refinement in Refinement::ALL {
+        check_refined(cage, &PlanDesc { boundary: Some(rule), scheme, refinement });
+    }
+}
+
+fn check_refined(cage: &Cage, desc: &PlanDesc) {
+    match SurfacePlan::build(cage, desc) {
         Ok(plan) => {
             check_numbers(&plan);
             check_places(cage, &plan);
             check_points(cage, &plan);
         }
         Err(PlanError::NothingToDraw { .. }) => {
-            assert!(!cage.drawn_faces(rule).contains(&true), "{scheme} draws nothing under {rule:?}");
+            assert!(!desc.boundary.is_none_or(|rule| cage.drawn_faces(rule).contains(&true)), "{desc:?} draws nothing");
         }
-        Err(error) => panic!("{scheme} under {rule:?}: {error}, of {:?}", inspect(cage)),
+        Err(error) => panic!("{desc:?}: {error}, of {:?}", inspect(cage)),
     }
 }
 
@@ -81,7 +87,11 @@ fn check_numbers(plan: &SurfacePlan) {
     let (vertices, edges) = (plan.vertex_records.count() as u32, plan.edge_record_count() as u32);
     for record in &plan.patches {
         let sides = record.sides();
-        assert!(record.vertex[..sides].iter().all(|&v| v < vertices), "{record:?} of {vertices} vertex records");
+        let exists = |corner: usize| match record.half_to(corner) {
+            None => record.vertex[corner] < vertices,
+            Some(_) => record.vertex[corner] == NONE,
+        };
+        assert!((0..sides).all(exists), "{record:?} of {vertices} vertex records");
         assert!(record.edge[..sides].iter().all(|&e| e / 2 < edges), "{record:?} of {edges} edge records");
     }
     assert!(plan.patch_of_quad.iter().all(|&patch| patch == NONE || (patch as usize) < plan.patches.len()));
