@@ -100,7 +100,7 @@ impl Surface {
         let (usage, memory) = (BufferUsage::CAPTURE, Memory::Readback);
         let desc = BufferDesc { name: "captured triangles", size, usage, memory };
         let buffer = device.buffer(&desc).map_err(EngineError::from)?;
-        let longest = self.engine().patches_per_draw(segments).min((size / patch_bytes(segments)) as u32);
+        let longest = self.patches_per_draw(tessellation)?.min((size / patch_bytes(segments)) as u32);
         let mut runs = runs(&self.plan().lists, longest).peekable();
         while runs.peek().is_some() {
             let (mut draws, mut room) = (Vec::new(), size);

@@ -344,6 +344,12 @@ impl Surface {
         PipelineKey::Patches { kind, halves, division, output, mapped: self.is_mapped() }
     }
 
+    /// Most patches of one of its draws.
+    pub(crate) fn patches_per_draw(&self, tessellation: &Tessellation) -> Result<u32, EngineError> {
+        let patches = self.plan().patches.len() as u32;
+        Ok(self.engine().patches_per_draw(self.max_segments(tessellation)?, patches))
+    }
+
     /// The draw of a run of patches; `bindings` are those of the surface and the frame.
     pub(crate) fn draw(
         &self,

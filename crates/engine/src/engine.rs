@@ -93,14 +93,20 @@ impl Engine {
         self.desc().grid_lanes.unwrap_or(self.device().info().is_llvmpipe)
     }
 
-    /// Most patches of one draw with so many segments along an edge.
+    /// Most patches of one draw of `patches` in all, with so many segments along an edge.
     ///
     /// llvmpipe numbers the tessellated vertices of a draw with 16 bits and garbles the triangles beyond 65 535 without a word; a patch makes at most
-    /// (segments + 2)^2 of them.
-    pub(crate) fn patches_per_draw(&self, segments: u32) -> u32 {
+    /// (segments + 2)^2 of them. It also keeps whatever its stages make of a draw in memory until the next stage has read it: draws of some thousand vertices stay
+    /// in the cache. Of fewer than 16 patches a draw's own price shows, and with more than some thousand draws their commands do.
+    pub(crate) fn patches_per_draw(&self, segments: u32, patches: u32) -> u32 {
         // Nets have at most 32 points, and a draw at most 2^32 vertices.
         let any = u32::MAX / 32;
-        let known = if self.device().info().is_llvmpipe { 65_535 / ((segments + 2) * (segments + 2)) } else { any };
+        let vertices = (segments + 2) * (segments + 2);
+        let known = if self.device().info().is_llvmpipe {
+            (2_048 / vertices).max(16).max(patches / 4_096).min(65_535 / vertices)
+        } else {
+            any
+        };
         self.desc().patches_per_draw.unwrap_or(known).clamp(1, any)
     }
 }

@@ -232,7 +232,7 @@ impl Instance {
     /// The draws of all patches by the tessellator.
     fn patches(&self) -> Result<Vec<Draw>, EngineError> {
         let bindings = self.surface.patch_bindings().with(binding::FRAME, &self.frame);
-        let longest = self.surface.engine().patches_per_draw(self.surface.max_segments(&self.tessellation)?);
+        let longest = self.surface.patches_per_draw(&self.tessellation)?;
         let draw = |run| self.surface.draw(run, &bindings, self.division(), self.output());
         runs(&self.surface.plan().lists, longest).map(draw).collect()
     }

@@ -131,7 +131,7 @@ impl Look<'_> {
         output: Output,
     ) -> Result<Vec<Draw>, EngineError> {
         let bindings = surface.patch_bindings().with(binding::FRAME, frame);
-        let longest = surface.engine().patches_per_draw(surface.max_segments(self.tessellation)?);
+        let longest = surface.patches_per_draw(self.tessellation)?;
         let division = self.division(surface);
         runs(&surface.plan().lists, longest).map(|run| surface.draw(run, &bindings, division, output)).collect()
     }

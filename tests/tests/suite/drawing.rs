@@ -153,8 +153,10 @@ fn a_steady_frame_allocates_nothing_and_uploads_points_alone() {
             _ => {
                 assert_eq!(statistics.control_patches, patches);
                 assert_eq!(drawing.grid_counts(), None);
-                // One for each kind of patch.
-                assert_eq!(load.draws, surface.plan().lists.len() as u64);
+                // Those of a kind together, but on llvmpipe 56 at most, whose vertices stay in the cache.
+                let longest = if own.device().info().is_llvmpipe { 56 } else { u32::MAX };
+                let draws = surface.plan().lists.iter().map(|list| u64::from(list.drawn.div_ceil(longest)));
+                assert_eq!(load.draws, draws.sum::<u64>());
             }
         }
         let (camera, before) = (drawing.desc().camera, own.device().memory_use());
