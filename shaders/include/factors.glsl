@@ -10,12 +10,19 @@ float side_factor(uint edge) {
     return SIDES == SIDES_UNREFINED ? doubled : edge_factor(edge >> 1u);
 }
 
+// Zero, which no compiler knows: there are less than 2^31 patches. lavapipe compiles a stage anew with every frame if it stores one uniform, and nothing else, in
+// five places or more, in the hope that a constant does better.
+float hidden_zero(uint patch_id) {
+    return float(patch_id >> 31u);
+}
+
 // Writes gl_TessLevelOuter and gl_TessLevelInner of a patch. Vulkan's outer levels are those of u=0, v=0, u=1, v=1.
 void write_factors(uint patch_id) {
-    float f0 = side_factor(patch_edge(patch_id, 0));
-    float f1 = side_factor(patch_edge(patch_id, 1));
-    float f2 = side_factor(patch_edge(patch_id, 2));
-    float f3 = side_factor(patch_edge(patch_id, 3));
+    float zero = hidden_zero(patch_id);
+    float f0 = side_factor(patch_edge(patch_id, 0)) + zero;
+    float f1 = side_factor(patch_edge(patch_id, 1)) + zero;
+    float f2 = side_factor(patch_edge(patch_id, 2)) + zero;
+    float f3 = side_factor(patch_edge(patch_id, 3)) + zero;
     gl_TessLevelOuter[0] = f3;
     gl_TessLevelOuter[1] = f0;
     gl_TessLevelOuter[2] = f1;
@@ -26,9 +33,10 @@ void write_factors(uint patch_id) {
 
 // The same for a triangle: outer levels are those of u=0, v=0, w=0.
 void write_triangle_factors(uint patch_id) {
-    float side0 = edge_factor(patch_edge(patch_id, 0) >> 1u);
-    float side1 = edge_factor(patch_edge(patch_id, 1) >> 1u);
-    float side2 = edge_factor(patch_edge(patch_id, 2) >> 1u);
+    float zero = hidden_zero(patch_id);
+    float side0 = edge_factor(patch_edge(patch_id, 0) >> 1u) + zero;
+    float side1 = edge_factor(patch_edge(patch_id, 1) >> 1u) + zero;
+    float side2 = edge_factor(patch_edge(patch_id, 2) >> 1u) + zero;
     gl_TessLevelOuter[0] = side2;
     gl_TessLevelOuter[1] = side0;
     gl_TessLevelOuter[2] = side1;
