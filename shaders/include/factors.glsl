@@ -19,10 +19,10 @@ float hidden_zero(uint patch_id) {
 // Writes gl_TessLevelOuter and gl_TessLevelInner of a patch. Vulkan's outer levels are those of u=0, v=0, u=1, v=1.
 void write_factors(uint patch_id) {
     float zero = hidden_zero(patch_id);
-    float f0 = side_factor(patch_edge(patch_id, 0)) + zero;
-    float f1 = side_factor(patch_edge(patch_id, 1)) + zero;
-    float f2 = side_factor(patch_edge(patch_id, 2)) + zero;
-    float f3 = side_factor(patch_edge(patch_id, 3)) + zero;
+    precise float f0 = side_factor(patch_edge(patch_id, 0)) + zero;
+    precise float f1 = side_factor(patch_edge(patch_id, 1)) + zero;
+    precise float f2 = side_factor(patch_edge(patch_id, 2)) + zero;
+    precise float f3 = side_factor(patch_edge(patch_id, 3)) + zero;
     gl_TessLevelOuter[0] = f3;
     gl_TessLevelOuter[1] = f0;
     gl_TessLevelOuter[2] = f1;
@@ -34,9 +34,9 @@ void write_factors(uint patch_id) {
 // The same for a triangle: outer levels are those of u=0, v=0, w=0.
 void write_triangle_factors(uint patch_id) {
     float zero = hidden_zero(patch_id);
-    float side0 = edge_factor(patch_edge(patch_id, 0) >> 1u) + zero;
-    float side1 = edge_factor(patch_edge(patch_id, 1) >> 1u) + zero;
-    float side2 = edge_factor(patch_edge(patch_id, 2) >> 1u) + zero;
+    precise float side0 = edge_factor(patch_edge(patch_id, 0) >> 1u) + zero;
+    precise float side1 = edge_factor(patch_edge(patch_id, 1) >> 1u) + zero;
+    precise float side2 = edge_factor(patch_edge(patch_id, 2) >> 1u) + zero;
     gl_TessLevelOuter[0] = side2;
     gl_TessLevelOuter[1] = side0;
     gl_TessLevelOuter[2] = side1;
