@@ -1,7 +1,7 @@
 //! A plan's tables on the device.
 
 use bytemuck::{NoUninit, cast_slice};
-use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, Device, Memory, TexelFormat};
+use osculate_gpu::{Bindings, Buffer, BufferDesc, BufferUsage, Device, Limits, Memory, TexelFormat};
 use osculate_shaders::{binding, constant};
 use osculate_subdiv::SurfacePlan;
 
@@ -54,8 +54,8 @@ impl<'a> Uploader<'a> {
         Self { device, bytes: 0 }
     }
 
-    fn check(&mut self, name: &str, bytes: u64) -> Result<(), EngineError> {
-        let limit = self.device.info().limits.max_storage_buffer_range;
+    fn check(&mut self, name: &str, bytes: u64, access: Access) -> Result<(), EngineError> {
+        let limit = access.most_bytes(&self.device.info().limits);
         if bytes > limit {
             let (what, device) = (name.to_owned(), self.device.info().name.clone());
             return Err(EngineError::TooLarge { what, bytes, limit, device });
@@ -66,25 +66,53 @@ impl<'a> Uploader<'a> {
 
     /// A table that shaders read as a storage buffer.
     pub(crate) fn table<T: NoUninit>(&mut self, name: &str, data: &[T]) -> Result<Buffer, EngineError> {
-        self.upload(name, BufferUsage::STORAGE, data)
+        self.upload(name, Access::Storage, data)
     }
 
-    /// A table that shaders read as an array of vectors.
-    fn texels<T: NoUninit>(&mut self, name: &str, data: &[T]) -> Result<Buffer, EngineError> {
-        self.upload(name, BufferUsage::TEXELS, data)
+    /// A table that shaders read as an array of vectors; of several formats, `format` is the smallest.
+    fn texels<T: NoUninit>(&mut self, name: &str, data: &[T], format: TexelFormat) -> Result<Buffer, EngineError> {
+        self.upload(name, Access::Texels(format), data)
     }
 
-    fn upload<T: NoUninit>(&mut self, name: &str, usage: BufferUsage, data: &[T]) -> Result<Buffer, EngineError> {
-        self.check(name, size_of_val(data) as u64)?;
-        Ok(self.device.upload(name, usage, data)?)
+    fn upload<T: NoUninit>(&mut self, name: &str, access: Access, data: &[T]) -> Result<Buffer, EngineError> {
+        self.check(name, size_of_val(data) as u64, access)?;
+        Ok(self.device.upload(name, access.usage(), data)?)
     }
 
-    /// What shaders compute: they write storage buffers, and read arrays of vectors.
+    /// Vectors that shaders compute, of `count` floats in all: they write storage buffers, and read arrays of vectors.
     fn floats(&mut self, name: &str, count: u64) -> Result<Buffer, EngineError> {
-        self.check(name, 4 * count)?;
-        let usage = BufferUsage::STORAGE | BufferUsage::TEXELS;
-        let desc = BufferDesc { name, size: 4 * count, usage, memory: Memory::Device };
+        let (size, access) = (4 * count, Access::Both(TexelFormat::Rgb32Float));
+        self.check(name, size, access)?;
+        let desc = BufferDesc { name, size, usage: access.usage(), memory: Memory::Device };
         Ok(self.device.buffer(&desc)?)
+    }
+}
+
+/// How shaders get at a buffer.
+#[derive(Clone, Copy)]
+enum Access {
+    Storage,
+    Texels(TexelFormat),
+    Both(TexelFormat),
+}
+
+impl Access {
+    fn usage(self) -> BufferUsage {
+        match self {
+            Self::Storage => BufferUsage::STORAGE,
+            Self::Texels(_) => BufferUsage::TEXELS,
+            Self::Both(_) => BufferUsage::STORAGE | BufferUsage::TEXELS,
+        }
+    }
+
+    /// Bytes of the largest buffer that a shader sees whole.
+    fn most_bytes(self, limits: &Limits) -> u64 {
+        let texels = |format: TexelFormat| limits.max_texels.saturating_mul(format.bytes());
+        match self {
+            Self::Storage => limits.max_storage_buffer_range,
+            Self::Texels(format) => texels(format),
+            Self::Both(format) => texels(format).min(limits.max_storage_buffer_range),
+        }
     }
 }
 
@@ -101,10 +129,11 @@ impl SurfaceBuffers {
         let coefficients = up.floats("coefficients", u64::from(plan.vector_count) * 3)?;
         let spokes: Vec<u32> =
             std::iter::once(plan.first_general_edge()).chain(cast_slice(&plan.spokes).iter().copied()).collect();
+        let (number, four, float) = (TexelFormat::R32Uint, TexelFormat::Rgba32Uint, TexelFormat::R32Float);
         let common = computed(&points, &vertex_records, &edge_records, &coefficients)
-            .with_texels(binding::NETS, &up.texels("nets", &plan.nets)?, TexelFormat::R32Uint)
-            .with_texels(binding::PATCHES, &up.texels("patches", &plan.patches)?, TexelFormat::Rgba32Uint)
-            .with_texels(binding::WEIGHTS, &up.texels("weights", &plan.weights)?, TexelFormat::R32Float)
+            .with_texels(binding::NETS, &up.texels("nets", &plan.nets, number)?, number)
+            .with_texels(binding::PATCHES, &up.texels("patches", &plan.patches, four)?, four)
+            .with_texels(binding::WEIGHTS, &up.texels("weights", &plan.weights, float)?, float)
             .with(binding::SPOKES, &up.table("spoke records", &spokes)?)
             .with(binding::FANS, &up.table("fans", &plan.gathers.fans)?);
         let levels = plan
@@ -112,20 +141,20 @@ impl SurfaceBuffers {
             .iter()
             .map(|tables| -> Result<LevelBuffers, EngineError> {
                 let mut rows = |name: &str, spans: &[[u32; 2]], indices: &[u32]| -> Result<Bindings, EngineError> {
-                    let spans = up.texels(&format!("{name} spans"), spans)?;
-                    let indices = up.texels(&format!("{name} indices"), indices)?;
+                    let spans = up.texels(&format!("{name} spans"), spans, TexelFormat::Rg32Uint)?;
+                    let indices = up.texels(&format!("{name} indices"), indices, number)?;
                     let rows = common.clone().with_texels(binding::SPANS, &spans, TexelFormat::Rg32Uint);
-                    let rows = rows.with_texels(binding::INDICES, &indices, TexelFormat::R32Uint);
+                    let rows = rows.with_texels(binding::INDICES, &indices, number);
                     // Faces of four points run through the kernel of edges.
-                    Ok(rows.with_texels(binding::QUADRUPLES, &indices, TexelFormat::Rgba32Uint))
+                    Ok(rows.with_texels(binding::QUADRUPLES, &indices, four))
                 };
                 Ok(LevelBuffers {
                     face: rows("face", &tables.face_spans, &tables.face_indices)?,
                     vertex: rows("vertex", &tables.vertex_spans, &tables.vertex_indices)?,
                     edge: common.clone().with_texels(
                         binding::QUADRUPLES,
-                        &up.texels("edge indices", &tables.edge_indices)?,
-                        TexelFormat::Rgba32Uint,
+                        &up.texels("edge indices", &tables.edge_indices, four)?,
+                        four,
                     ),
                 })
             })
@@ -144,14 +173,14 @@ impl SurfaceBuffers {
         );
         let projections = sources("sources of coefficients", cast_slice(&plan.projections))?;
         let mut read = |binding, name: &str, format, data: &[u32]| -> Result<Bindings, EngineError> {
-            Ok(common.clone().with_texels(binding, &up.texels(name, data)?, format))
+            Ok(common.clone().with_texels(binding, &up.texels(name, data, format)?, format))
         };
-        let (number, regular) = (TexelFormat::R32Uint, binding::REGULAR_SOURCES);
+        let regular = binding::REGULAR_SOURCES;
         let reflections = cast_slice(&plan.reflections);
         Ok(Self {
             vertex_regular: read(regular, "sources of regular vertex records", number, &vertices.regular)?,
             edge_regular: read(regular, "sources of regular edge records", number, &edges.regular)?,
-            phantom: read(binding::QUADRUPLES, "phantom points", TexelFormat::Rgba32Uint, reflections)?,
+            phantom: read(binding::QUADRUPLES, "phantom points", four, reflections)?,
             cage_edges: read(binding::INDICES, "cage edges", number, cast_slice(cage_edges))?,
             vertex_general,
             edge_general,
@@ -225,4 +254,19 @@ fn staging(device: &Device, plan: &SurfacePlan) -> Result<Buffer, EngineError> {
     let size = 12 * u64::from(plan.cage_points);
     let desc = BufferDesc { name: "cage points", size, usage: BufferUsage::STORAGE, memory: Memory::Upload };
     Ok(device.buffer(&desc)?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn buffers_are_as_large_as_each_access_to_them_allows() {
+        let mut limits = Limits::default();
+        (limits.max_storage_buffer_range, limits.max_texels) = (1000, 100);
+        let most = |access: Access| access.most_bytes(&limits);
+        assert_eq!(most(Access::Storage), 1000);
+        assert_eq!([TexelFormat::R32Uint, TexelFormat::Rgba32Uint].map(|f| most(Access::Texels(f))), [400, 1600]);
+        assert_eq!([TexelFormat::R32Float, TexelFormat::Rgb32Float].map(|f| most(Access::Both(f))), [400, 1000]);
+    }
 }
