@@ -100,7 +100,9 @@ impl From<EngineError> for Failure {
             EngineError::Plan(PlanError::NothingToDraw { .. } | PlanError::TooLarge { .. }) => Self::input(error),
             EngineError::Pose { .. } => Self::input(error).with_hint("correct the animation, or take another --time"),
             EngineError::Level { .. } => Self::usage(error).with_hint("--level takes numbers from 1 to 64"),
-            EngineError::Unrefined { .. } => Self::usage(error).with_hint("leave --refine needed away"),
+            EngineError::Unrefined { .. } | EngineError::Plan(PlanError::UnrefinedParts) => {
+                Self::usage(error).with_hint("leave --refine needed away")
+            }
             EngineError::Unsupported { .. } => {
                 Self::device(error).with_hint("ask for less, or for another --device; --list-devices shows them")
             }

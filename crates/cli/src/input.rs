@@ -114,6 +114,8 @@ impl InputArgs {
     /// The failure for a cage that cannot become a surface.
     pub(crate) fn refuse(&self, error: EngineError) -> Failure {
         match error {
+            // What the command line asks for, not the cage, is at fault.
+            EngineError::Plan(PlanError::UnrefinedParts) => error.into(),
             EngineError::Plan(error) => Failure::input(format_args!("{}: {error}", self.file.display()))
                 .with_hint("inspect says what the cage is made of"),
             EngineError::TooLarge { .. } => Failure::input(format_args!("{}: {error}", self.file.display())).with_hint(

@@ -26,7 +26,7 @@ pub enum PlanError {
     },
     /// Faces of parts of cages would be left unrefined.
     #[error(
-        "a cage in parts is refined everywhere: take Refinement::Everywhere (--refine everywhere), or fewer, larger parts (--part-faces)"
+        "faces of a cage in parts cannot be left unrefined: take Refinement::Everywhere (--refine everywhere), or draw the cage as a whole (without --part-faces), if the device has room for it"
     )]
     UnrefinedParts,
     /// Nothing is left to draw.

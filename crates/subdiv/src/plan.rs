@@ -31,6 +31,13 @@ pub struct PlanDesc {
     pub refinement: Refinement,
 }
 
+impl PlanDesc {
+    /// Whether a plan may leave faces unrefined that are refined under [`Refinement::Everywhere`]: [`Scheme::Gregory1`] refines none of them anyway.
+    pub fn may_leave_faces(&self) -> bool {
+        self.refinement == Refinement::WhereNeeded && self.scheme != Scheme::Gregory1
+    }
+}
+
 /// The plan of a cage: tables of its refinement steps, patches of the final mesh, sources of records.
 pub struct SurfacePlan {
     /// Boundary rule in force.
@@ -49,7 +56,7 @@ pub struct SurfacePlan {
     pub first_phantom: u32,
     /// Phantom points: indices (a, b, c, d) stand for 2 (2a - b) - (2c - d).
     pub reflections: Vec<[u32; 4]>,
-    /// Patches by kind: regular, extraordinary by valence, stored. Empty lists are left out.
+    /// Patches by kind: unrefined faces, regular, extraordinary by valence, stored. Empty lists are left out.
     pub lists: Vec<PatchList>,
     /// Nets of all patches, in list order.
     pub nets: Vec<u32>,
@@ -97,7 +104,7 @@ impl SurfacePlan {
     /// # Errors
     /// As [`Self::build`], and if the rest of the cage, which it must agree with, may be refined otherwise: [`Refinement::WhereNeeded`].
     pub fn build_part(part: &CagePart, desc: &PlanDesc) -> Result<Self, PlanError> {
-        if desc.refinement != Refinement::Everywhere && desc.scheme != Scheme::Gregory1 {
+        if desc.may_leave_faces() {
             return Err(PlanError::UnrefinedParts);
         }
         let cage = part.cage();
@@ -152,18 +159,13 @@ impl SurfacePlan {
         let (vertices, scheme) = (mesh.vertex_count() as u32, desc.scheme);
         let tags: Vec<Tag> = (0..vertices).into_par_iter().map(|v| Tag::of_vertex(mesh, rule, scheme, v)).collect();
         check_nets(&tags, scheme)?;
-        let first_point = levels.last().map_or(0, |level| level.first_new);
+        let cage_points = levels.first().map_or(0, |level| level.vertex_count() as u32);
+        let (first_old, first_point) = levels.last().map_or((0, 0), |level| (level.first_old, level.first_new));
         let unrefined = match desc.refinement {
             Refinement::Everywhere => Vec::new(),
             Refinement::WhereNeeded => unrefined_faces(mesh, &is_drawn),
         };
-        let first_old = levels.last().map_or(0, |level| level.first_old);
-        let cage_points = levels.first().map_or(0, |level| level.vertex_count() as u32);
-        let is_refined = |quad: u32| is_drawn(quad) && !unrefined[mesh.face(quad) as usize];
-        let needed = unrefined.contains(&true).then(|| NeededPoints::new(mesh, is_refined));
-        if let (Some(needed), Some(last)) = (&needed, levels.last_mut()) {
-            *last = needed.tables(last);
-        }
+        let needed = leave_points(mesh, &unrefined, &is_drawn, &mut levels);
         let mesh = FinalMesh { old: mesh, first_point, first_old, tags, needed };
         let order = PatchOrder::new(&mesh, is_drawn, &unrefined);
         locator.leave(unrefined);
@@ -261,6 +263,19 @@ impl SurfacePlan {
             + size_of_val(self.projections.as_slice())
             + self.gathers.bytes()
     }
+}
+
+/// Takes the points that no patch is made of out of the last of `levels`, a step on `mesh`, if it leaves faces unrefined; returns the others.
+fn leave_points<M: Connectivity>(
+    mesh: &M,
+    unrefined: &[bool],
+    is_drawn: impl Fn(u32) -> bool + Sync,
+    levels: &mut [RefineTables],
+) -> Option<NeededPoints> {
+    let last = levels.last_mut().filter(|_| unrefined.contains(&true))?;
+    let needed = NeededPoints::new(mesh, |quad| is_drawn(quad) && !unrefined[mesh.face(quad) as usize]);
+    *last = needed.tables(last);
+    Some(needed)
 }
 
 /// Refuses cages whose final mesh could overflow 32-bit numbers: half-edges grow by four per step, and every final quad has four slots for records.

@@ -4,8 +4,8 @@ use glam::DVec3;
 use osculate::gpu::Device;
 use osculate::{
     Cage, CheckReport, Displacement, Engine, EngineError, Evaluator, Factors, MapPlacement, MapsDesc, Part, Parts,
-    PartsDesc, PartsProof, RenderDesc, Scheme, Shade, Spacing, Surface, SurfaceDesc, Tessellation, UvOrigin,
-    WeldReport, WholeOrParts, check, render,
+    PartsDesc, PartsProof, Refinement, RenderDesc, Scheme, Shade, Spacing, Surface, SurfaceDesc, Tessellation,
+    UvOrigin, WeldReport, WholeOrParts, check, render,
 };
 use osculate_cage::{CageDesc, CagePart, divide};
 use osculate_tests::{gpu, mapped, rules_of, schemes_in_turn, surface_of, zoo};
@@ -184,4 +184,8 @@ fn a_cage_beyond_the_device_s_limit_becomes_parts() {
         WholeOrParts::Whole(surface) => assert!(!expects_parts, "{} bytes in one buffer", surface.bytes()),
         WholeOrParts::Parts(parts) => assert!(expects_parts && parts.count() < 4, "{} parts", parts.count()),
     }
+    // A fourth of the records, of most faces, fits.
+    let needed = SurfaceDesc { refinement: Refinement::WhereNeeded, ..SurfaceDesc::default() };
+    let made = WholeOrParts::new(&gpu, &cage, &PartsDesc { surface: needed, most_faces: None }).unwrap();
+    assert!(matches!(made, WholeOrParts::Whole(_)));
 }

@@ -138,4 +138,6 @@ fn what_is_refined_where_needed_is_proved_and_does_not_go_with_everything() {
     assert!(ran.stdout.contains("watertight"), "{}", ran.stdout);
     run(&["--schemes", "gregory2", "--spacing", "odd"]).fails(2, "--refine");
     run(&["--schemes", "gregory2", "--levels", "33"]).fails(2, "--refine");
+    run(&["--schemes", "gregory2", "--part-faces", "20"]).fails(2, "--refine");
+    run(&["--schemes", "gregory1", "--part-faces", "20", "--levels", "2"]).exits(0);
 }

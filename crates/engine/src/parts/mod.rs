@@ -49,14 +49,18 @@ impl<'a> WholeOrParts<'a> {
     /// The surface of a cage: as a whole if it fits the device and `desc` does not ask for smaller parts.
     ///
     /// # Errors
-    /// If the cage cannot be planned, no face is left to draw, or the device fails.
+    /// If the cage cannot be planned, no face is left to draw, or the device fails; and if faces that are left unrefined
+    /// ([`Refinement::WhereNeeded`](crate::Refinement::WhereNeeded)) do not fit the device as a whole.
     pub fn new(engine: &Engine, cage: &'a Cage, desc: &PartsDesc) -> Result<Self, EngineError> {
         let parts = Parts::new(engine, cage, desc)?;
-        if parts.count() > 1 {
+        // Estimates are of cages that are refined everywhere; where faces are not, the whole may fit all the same, and nothing else would do.
+        let is_indivisible = desc.surface.plan().may_leave_faces();
+        if parts.count() > 1 && (desc.most_faces.is_some() || !is_indivisible) {
             return Ok(Self::Parts(parts));
         }
         match Surface::new(engine, cage, &desc.surface) {
             Ok(surface) => Ok(Self::Whole(surface)),
+            Err(error) if is_of_size(&error) && is_indivisible => Err(PlanError::UnrefinedParts.into()),
             Err(error) if is_of_size(&error) && cage.face_count() > 1 => Ok(Self::Parts(parts.split(0))),
             Err(error) => Err(error),
         }
