@@ -147,7 +147,7 @@ impl PipelineKey {
     pub(crate) fn make(self, engine: &Engine) -> Result<GraphicsPipeline, EngineError> {
         match self {
             Self::Patches { kind, halves, division, output, mapped } => {
-                make_patches(engine, (kind, halves), division, output, mapped)
+                make_patches(engine, kind, halves, division, output, mapped)
             }
             Self::Grid { output, mapped } => make_grid(engine, output, mapped),
             Self::Cage { target, hidden } => make_cage(engine, target, hidden),
@@ -157,7 +157,8 @@ impl PipelineKey {
 
 fn make_patches(
     engine: &Engine,
-    (kind, halves): (PatchKind, bool),
+    kind: PatchKind,
+    halves: bool,
     division: Division,
     output: Output,
     mapped: bool,

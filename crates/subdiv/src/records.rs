@@ -108,7 +108,7 @@ impl<M: Connectivity> Slots<'_, M> {
         patch < self.order.unrefined
     }
 
-    /// The slot of the side that an old half-edge is, if its face is left unrefined.
+    /// The slot of the side that an old half-edge is, if its face is left unrefined; of [`NONE`] there is none.
     fn unrefined(&self, h: u32) -> Option<u32> {
         let patch = *self.order.patch_of_quad.get(h as usize)?;
         self.is_unrefined(patch).then(|| 4 * patch + (h - self.order.quads[patch as usize]))
@@ -167,12 +167,12 @@ impl PointOwners {
         };
         let at_edge = |e| {
             let h = old.edge_half_edge(e);
-            let sides = || [h, old.twin(h)].into_iter().filter(|&side| side != NONE);
-            if sides().any(|side| slots.unrefined(side).is_some()) {
+            let sides = [h, old.twin(h)];
+            if sides.iter().any(|&side| slots.unrefined(side).is_some()) {
                 return None;
             }
-            let sides = sides();
-            sides.map(|h| slots.of(h, 1).min(slots.of(old.next(h), 3))).min()
+            let drawn = sides.into_iter().filter(|&side| side != NONE);
+            drawn.map(|h| slots.of(h, 1).min(slots.of(old.next(h), 3))).min()
         };
         let at_vertex = |v| old.ring(v).map(|h| slots.unrefined(h).unwrap_or_else(|| slots.of(h, 0))).min();
         Self {

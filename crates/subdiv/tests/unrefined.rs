@@ -37,6 +37,8 @@ fn cases() -> Vec<Case> {
     }
     let unrefined: u32 = cases.iter().map(|case| case.needed.unrefined_count()).sum();
     assert!(unrefined > 500, "the cages have {unrefined} such faces");
+    let of_second_step = |case: &&Case| case.needed.steps() == 2 && case.needed.unrefined_count() > 0;
+    assert!(cases.iter().filter(of_second_step).count() > 1, "too few cages have such faces after a first step");
     cases
 }
 
