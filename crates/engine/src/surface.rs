@@ -23,7 +23,16 @@ pub struct SurfaceDesc {
     /// Boundary rule; `None` takes that of the file's tags, else edge-and-corner.
     pub boundary: Option<BoundaryRule>,
     /// Which faces are refined. Where some are left as they are, frames have fewer patches, but factors must be uniform, at most 32, and equally spaced; there are no
-    /// maps and no parts of cages.
+    /// maps and no parts of cages. What asks for more fails with [`EngineError::Unrefined`].
+    ///
+    /// ```no_run
+    /// # use osculate::{Cage, Engine, Refinement, Surface, SurfaceDesc};
+    /// # fn example(engine: &Engine, cage: &Cage) -> Result<(), osculate::EngineError> {
+    /// let desc = SurfaceDesc { refinement: Refinement::WhereNeeded, ..SurfaceDesc::default() };
+    /// let surface = Surface::new(engine, cage, &desc)?;
+    /// let whole_faces = surface.plan().unrefined_count();
+    /// # Ok(()) }
+    /// ```
     pub refinement: Refinement,
 }
 

@@ -6,12 +6,15 @@ use crate::{EngineError, Factors, Spacing, Surface, Tessellation};
 const MOST_SEGMENTS: u32 = 32;
 
 impl Surface {
-    /// Whether faces of the cage are left unrefined.
+    /// Whether faces are left unrefined: only by [`Refinement::WhereNeeded`](crate::Refinement::WhereNeeded), and only if the cage has such faces.
     pub fn has_unrefined(&self) -> bool {
         self.plan().unrefined_count() > 0
     }
 
     /// Most segments that a side of a patch can get.
+    ///
+    /// # Errors
+    /// If the level is out of range, or unrefined faces cannot be divided so.
     pub(crate) fn max_segments(&self, tessellation: &Tessellation) -> Result<u32, EngineError> {
         let segments = tessellation.max_segments()?;
         if !self.has_unrefined() {

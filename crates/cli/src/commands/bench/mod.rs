@@ -109,7 +109,7 @@ struct ResultArgs {
     plot: Option<PathBuf>,
 
     /// Time the subdivision of each cage, as Table 1 of Loop's report does, in place of frames: by the difference of frames with
-    /// and without it, and pass by pass.
+    /// and without it, and pass by pass. Of --schemes, --levels and --refine the first counts.
     #[arg(long, conflicts_with_all = ["animate", "limit", "plot", "figure5", "compare", "csv"])]
     table1: bool,
 

@@ -12,7 +12,9 @@ use crate::input::Input;
 use crate::postponement::Interruption;
 use crate::progress::Progress;
 use osculate::gpu::{Device, Measure, Prepared, Recording};
-use osculate::{Camera, Culling, Drawing, DrawingDesc, Engine, EngineError, Shade, Surface, Target, Targets};
+use osculate::{
+    Camera, Culling, Drawing, DrawingDesc, Engine, EngineError, Refinement, Shade, Surface, Target, Targets,
+};
 use serde::Serialize;
 use std::fmt;
 use std::time::Instant;
@@ -24,6 +26,7 @@ pub(super) struct Table {
     cage: String,
     faces: usize,
     scheme: String,
+    refine: &'static str,
     steps: u32,
     level: f32,
     /// Frames with an update of the surface and frames without.
@@ -62,7 +65,7 @@ const ALONE: usize = 2;
 const NOTHING: usize = 3;
 const FIRST_PASS: usize = 4;
 
-/// Measures the first scheme and level of every cage.
+/// Measures every cage by the first scheme, level and way to refine.
 pub(super) fn measure(
     engine: &Engine,
     job: &Job,
@@ -105,6 +108,7 @@ pub(super) fn measure(
             cage: cage.name(),
             faces: input.cage.face_count(),
             scheme: configuration.scheme.name().to_owned(),
+            refine: Refinement::from(configuration.refine).name(),
             steps: surface.plan().steps(),
             level: configuration.level,
             with_ms,
