@@ -18,8 +18,8 @@
 //!
 //! # From a file to pictures and points
 //! * A [`Cage`] is read from OBJ, PLY, OFF, USD or glTF, or built by [`osculate_cage`].
-//! * An [`Engine`] is a device with the pipelines made on it so far. A [`Surface`] holds a cage's tables and points there, in one of the [`Scheme`]s; its
-//!   points are moved by [`Surface::set_points`] or by an [`Animator`], and it is painted and displaced by [`Surface::with_maps`].
+//! * An [`Engine`] is a device with the pipelines made on it so far. A [`Surface`] holds a cage's tables and points there, in one of the [`Scheme`]s, refined
+//!   everywhere or where it must be ([`Refinement`]); its points are moved by [`Surface::set_points`] or by an [`Animator`], and it is painted and displaced by [`Surface::with_maps`].
 //! * [`render()`] makes a picture, [`Surface::capture`] hands out triangles, [`Surface::sample`] evaluates single points, and [`check()`] proves that no shared
 //!   edge is open. [`Tessellation`] says how finely, and whether the tessellator or compute kernels do it ([`Evaluator`]).
 //! * A cage too large for the device's buffers is drawn and proved in [`Parts`], one of which is on the device at a time: [`WholeOrParts`] decides.

@@ -38,7 +38,7 @@ impl UvTables {
     /// The tables for texture coordinates of the cage that `plan` was made of. `place` is applied to each of them.
     ///
     /// # Panics
-    /// If they are of another cage.
+    /// If they are of another cage, or faces are left unrefined ([`crate::Refinement::WhereNeeded`]): edges of these have ends that no vertex record stands for.
     pub fn new(plan: &SurfacePlan, uv: &FaceVarying, place: impl Fn(DVec2) -> DVec2 + Sync) -> Self {
         let values: Vec<DVec2> = uv.values.iter().map(|&value| place(value)).collect();
         let corner = |c: u32| values[uv.indices[c as usize] as usize];

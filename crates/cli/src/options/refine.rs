@@ -6,7 +6,7 @@ use osculate::Refinement;
 /// Names of the ways to refine.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum RefineArg {
-    /// All faces, once or twice.
+    /// All faces that the scheme refines.
     Everywhere,
     /// Only faces beside irregular vertices or boundaries; the others stay one patch, with twice the segments: fewer patches, the same
     /// surface. For uniform levels up to 32, equally spaced, without textures and displacements, of cages drawn as a whole. gregory1
