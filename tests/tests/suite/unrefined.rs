@@ -75,15 +75,20 @@ fn halves_without_their_whole_are_watertight() {
     }
 }
 
-/// The evaluation stage divides integers where the sampling kernel halves parameters, and both are the surface that is refined everywhere.
+/// Both evaluators find points by integers where the sampling kernel halves parameters, and all are the surface that is refined everywhere; of `ngon` by the second
+/// of two steps.
 #[test]
 fn points_are_those_of_the_refined_surface() {
     let gpu = gpu();
-    for name in ["dragon", "shell", "triangles", "torus"] {
+    let (tessellator, compute) = (Evaluator::Tessellator, Evaluator::Compute);
+    for (name, evaluator) in
+        [("dragon", tessellator), ("ngon", tessellator), ("ngon", compute), ("shell", compute), ("torus", compute)]
+    {
         let cage = zoo::shipped(name);
         let surface = surface(&gpu, &cage, Scheme::Gregory2);
+        assert!(surface.has_unrefined(), "{name}");
         let everywhere = Surface::new(&gpu, &cage, &SurfaceDesc::default()).unwrap();
-        let vertices = captured(&surface, &Tessellation::uniform(3.0));
+        let vertices = captured(&surface, &Tessellation { evaluator, ..Tessellation::uniform(3.0) });
         let requests: Vec<SampleRequest> =
             vertices.iter().map(|v| SampleRequest { patch_id: v.patch, u: v.uv[0], v: v.uv[1] }).collect();
         let places = vertices.iter().map(|v| surface.place(v.patch, v.uv.map(f64::from)));
