@@ -32,7 +32,7 @@ pub struct PlanDesc {
 }
 
 impl PlanDesc {
-    /// Whether a plan may leave faces unrefined that are refined under [`Refinement::Everywhere`]: [`Scheme::Gregory1`] refines none of them anyway.
+    /// Whether a plan may leave faces unrefined that are refined under [`Refinement::Everywhere`]: never under [`Scheme::Gregory1`].
     pub fn may_leave_faces(&self) -> bool {
         self.refinement == Refinement::WhereNeeded && self.scheme != Scheme::Gregory1
     }

@@ -17,7 +17,8 @@ pub enum Refinement {
     #[default]
     Everywhere,
     /// Only those that must be: a quad with four quads around each of its corners, none of them at a boundary, stays one patch, with twice the segments of the
-    /// others. Of a cage that takes two steps this holds for the second. [`crate::Scheme::Gregory1`] refines no such face anyway.
+    /// others. Of a cage that takes two steps this holds for the second. It makes no difference to [`crate::Scheme::Gregory1`], which takes no step but for faces with
+    /// more than four sides, and that one everywhere.
     WhereNeeded,
 }
 

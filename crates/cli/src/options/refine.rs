@@ -9,8 +9,8 @@ pub(crate) enum RefineArg {
     /// All faces that the scheme refines.
     Everywhere,
     /// Only faces beside irregular vertices or boundaries; the others stay one patch, with twice the segments: fewer patches, the same
-    /// surface. For uniform levels up to 32, equally spaced, without textures and displacements, of cages drawn as a whole. gregory1
-    /// never refines the others.
+    /// surface. For uniform levels up to 32, equally spaced, without textures and displacements, of cages drawn as a whole. Without
+    /// effect on gregory1.
     Needed,
 }
 
