@@ -52,14 +52,16 @@ void write_vertex() {
     point = displaced_point(patch_id, uv, inner, point);
 #endif
     gl_Position = clip_position(point.position);
-    out_normal = point.normal;
 #ifdef CAPTURE
+    out_normal = point.normal;
     out_position = point.position;
     out_uv = uv;
     out_patch = patch_id;
+#else
+    out_normal = shade_direction(point.normal);
 #endif
 #ifdef SEES_POSITION
-    out_position = point.position;
+    out_position = shade_place(point.position);
 #endif
 #ifdef SEES_PATCH
     if (shade_sees_measure()) {

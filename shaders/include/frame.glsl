@@ -56,6 +56,22 @@ bool shade_sees_patch() {
     return MATERIAL != 0u || SHADE == SHADE_PATCHES || SHADE == SHADE_VALENCE;
 }
 
+// Whether fragments want places and normals in view space, where lights are. Stages before them give them so: a fragment would read every number of the matrix
+// anew, and llvmpipe reads a uniform buffer lane by lane wherever lanes may be off, as in every fragment stage.
+bool shade_is_in_view() {
+    return MATERIAL == 0u && SHADE != SHADE_NONE && SHADE != SHADE_NORMALS;
+}
+
+// What fragments get of a position.
+vec3 shade_place(vec3 position) {
+    return shade_is_in_view() ? (frame.view_from_cage * vec4(position, 1.0)).xyz : position;
+}
+
+// What fragments get of a normal.
+vec3 shade_direction(vec3 normal) {
+    return shade_is_in_view() ? mat3(frame.view_from_cage) * normal : normal;
+}
+
 // The one clip-space transform: positions equal bit for bit stay equal.
 vec4 clip_position(vec3 p) {
     mat4 m = frame.clip_from_cage;

@@ -13,6 +13,7 @@
 #ifndef MATERIAL_GLSL
 #define MATERIAL_GLSL
 #include "frame.glsl"
+#include "unit.glsl"
 
 // In cage space: relative to the centre of the cage's box, scaled by a power of two.
 layout(location = 0) in vec3 position;
@@ -22,12 +23,6 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 measure;
 // Number of the patch, counted as Surface::plan counts: Surface::patch_faces says which face of the cage it lies on.
 layout(location = 3) in flat uint patch_id;
-
-// The unit vector along a, zero for zero.
-vec3 shade_unit_or_zero(vec3 a) {
-    float squared = dot(a, a);
-    return squared > 0.0 ? a * inversesqrt(squared) : vec3(0.0);
-}
 
 // A normal under a linear map: cofactors are the inverse transpose but for a factor.
 vec3 shade_map_normal(mat3 m, vec3 n) {

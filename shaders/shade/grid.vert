@@ -20,9 +20,9 @@ layout(location = 3) out flat uint out_patch;
 
 void main() {
     gl_Position = clip_position(in_position);
-    out_normal = in_normal;
+    out_normal = shade_direction(in_normal);
 #ifdef SEES_POSITION
-    out_position = in_position;
+    out_position = shade_place(in_position);
 #endif
 #ifdef SEES_PATCH
     out_measure = in_measure;

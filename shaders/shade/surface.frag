@@ -11,6 +11,7 @@
 #include "texture.glsl"
 #endif
 
+// In view space, but for normals that are shown as they are (shade_is_in_view).
 layout(location = 1) in vec3 normal;
 #ifdef SEES_POSITION
 layout(location = 0) in vec3 position;
@@ -34,27 +35,18 @@ const vec3 INSIDE = vec3(0.400, 0.500, 0.590);
 // What is behind a hole: nothing else is as bright.
 const vec3 LEAK = vec3(1.0, 0.0, 1.0);
 
-vec3 shade_view(vec3 a) {
-    return mat3(frame.view_from_cage) * a;
-}
-
 // The unit normal on the side of the triangle that is seen. Interpolated normals of a coarse outline may look away from the eye: those are bent until they
 // graze it. Where there is no tangent plane the surface faces the eye.
 vec3 shade_normal(vec3 v) {
-    vec3 n = shade_view(gl_FrontFacing ? normal : -normal);
+    vec3 n = gl_FrontFacing ? normal : -normal;
     n -= min(dot(n, v), 0.0) * v;
-    return dot(n, n) > 0.0 ? normalize(n) : v;
-}
-
-// The unit vector along a, zero for zero: undefined normals must not become colours that are not numbers.
-vec3 shade_unit(vec3 a) {
-    float squared = dot(a, a);
-    return squared > 0.0 ? normalize(a) : vec3(0.0);
+    float squared = dot(n, n);
+    return squared > 1e-30 ? n * inversesqrt(squared) : v;
 }
 
 // The shading of the peer's benchmark picture: one two-sided headlight, written without colour encoding.
 vec3 shade_peer() {
-    vec3 n = shade_unit(shade_view(normal));
+    vec3 n = shade_unit_or_zero(normal);
     return vec3(0.80, 0.75, 0.70) * (0.15 + 0.85 * abs(dot(n, normalize(vec3(0.3, 0.4, 1.0)))));
 }
 
@@ -72,15 +64,15 @@ vec3 shade_zebra(vec3 n, vec3 v) {
     float phase = 2.1 * r.y + 0.7 * r.x;
     float stripe = shade_square_wave(phase, fwidth(phase), 0.5);
     vec3 rgb = mix(vec3(0.012, 0.014, 0.018), vec3(0.86, 0.86, 0.84), stripe);
-    float grazing = pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 4.0);
+    float grazing = shade_fourth_power(1.0 - clamp(dot(n, v), 0.0, 1.0));
     return rgb * (0.55 + 0.45 * dot(n, v)) + 0.06 * grazing;
 }
 
 // A tunnel of thin light tubes mirrored in dark lacquer.
 vec3 shade_reflection(vec3 n, vec3 v) {
     vec3 lacquer = shade_lit(vec3(0.022, 0.050, 0.078), n, v);
-    float light = shade_tubes(shade_view(position) / frame.radius, reflect(-v, n));
-    float fresnel = 0.55 + 0.45 * pow(1.0 - clamp(dot(n, v), 0.0, 1.0), 5.0);
+    float light = shade_tubes((position - frame.view_from_cage[3].xyz) / frame.radius, reflect(-v, n));
+    float fresnel = 0.55 + 0.45 * shade_fifth_power(1.0 - clamp(dot(n, v), 0.0, 1.0));
     return lacquer + vec3(0.96, 0.93, 0.86) * (light * fresnel);
 }
 
@@ -91,7 +83,7 @@ vec3 shade_factors(vec3 n, vec3 v) {
 }
 
 void main() {
-    vec3 v = normalize(shade_view(frame.eye.xyz - position));
+    vec3 v = shade_unit_or_zero(-position);
     vec3 n = shade_normal(v);
 #ifdef SEES_PATCH
     uint tag = patch_basis(patch_id).tag;
@@ -100,7 +92,7 @@ void main() {
 #endif
     vec3 rgb;
     switch (SHADE) {
-    case SHADE_NORMALS: rgb = shade_decode(0.5 + 0.5 * shade_unit(normal)); break;
+    case SHADE_NORMALS: rgb = shade_decode(0.5 + 0.5 * shade_unit_or_zero(normal)); break;
     case SHADE_PATCHES: rgb = shade_outlined(shade_flat(shade_patch_color(tag), n, v), measure); break;
     case SHADE_VALENCE: rgb = shade_outlined(shade_flat(shade_valence_color(tag), n, v), measure); break;
     case SHADE_ZEBRA: rgb = shade_zebra(n, v); break;

@@ -216,7 +216,7 @@ fn another_shade_level_or_sample_count_is_refused() {
 fn changed_shaders_are_refused() {
     let mutations = [
         // Lights that do not follow the camera.
-        Mutation { path: "shade/surface.frag", from: "return mat3(frame.view_from_cage) * a;", to: "return a;" },
+        Mutation { path: "include/frame.glsl", from: "mat3(frame.view_from_cage) * normal", to: "normal" },
         // A surface that is a little too large.
         Mutation {
             path: "include/evaluation_stage.glsl",
@@ -226,8 +226,8 @@ fn changed_shaders_are_refused() {
         // Flat normals along edges.
         Mutation {
             path: "include/evaluation_stage.glsl",
-            from: "out_normal = point.normal;",
-            to: "out_normal = side_of(uv) == 4u ? point.normal : vec3(0.0, 0.0, 1.0);",
+            from: "shade_direction(point.normal)",
+            to: "shade_direction(side_of(uv) == 4u ? point.normal : vec3(0.0, 0.0, 1.0))",
         },
     ];
     for mutation in mutations {
