@@ -40,8 +40,7 @@ const vec3 LEAK = vec3(1.0, 0.0, 1.0);
 vec3 shade_normal(vec3 v) {
     vec3 n = gl_FrontFacing ? normal : -normal;
     n -= min(dot(n, v), 0.0) * v;
-    float squared = dot(n, n);
-    return squared > 1e-30 ? n * inversesqrt(squared) : v;
+    return shade_unit_or(n, v);
 }
 
 // The shading of the peer's benchmark picture: one two-sided headlight, written without colour encoding.

@@ -20,7 +20,7 @@ pub struct Engine {
 pub struct EngineDesc {
     /// The shaders: others than the embedded ones for reloading them, and for tests of changed ones.
     pub shaders: ShaderSet,
-    /// Most patches of one draw; `None` takes what the driver is known to draw right.
+    /// Most patches of one draw; `None` takes what the driver draws right, and fast.
     pub patches_per_draw: Option<u32>,
     /// Most vertices that the compute evaluator makes at once; `None` takes what fits the device and a moderate buffer.
     pub grid_vertices: Option<u32>,
@@ -94,19 +94,37 @@ impl Engine {
     }
 
     /// Most patches of one draw of `patches` in all, with so many segments along an edge.
-    ///
-    /// llvmpipe numbers the tessellated vertices of a draw with 16 bits and garbles the triangles beyond 65 535 without a word; a patch makes at most
-    /// (segments + 2)^2 of them. It also keeps whatever its stages make of a draw in memory until the next stage has read it: draws of some thousand vertices stay
-    /// in the cache. Of fewer than 16 patches a draw's own price shows, and with more than some thousand draws their commands do.
     pub(crate) fn patches_per_draw(&self, segments: u32, patches: u32) -> u32 {
         // Nets have at most 32 points, and a draw at most 2^32 vertices.
         let any = u32::MAX / 32;
-        let vertices = (segments + 2) * (segments + 2);
-        let known = if self.device().info().is_llvmpipe {
-            (2_048 / vertices).max(16).max(patches / 4_096).min(65_535 / vertices)
-        } else {
-            any
-        };
+        let known = if self.device().info().is_llvmpipe { llvmpipe_patches(segments, patches) } else { any };
         self.desc().patches_per_draw.unwrap_or(known).clamp(1, any)
+    }
+}
+
+/// Patches of a draw on llvmpipe, of `patches` in all, with so many segments along an edge.
+///
+/// It numbers the tessellated vertices of a draw with 16 bits and garbles the triangles beyond 65 535 without a word; a patch makes at most (segments + 2)^2 of
+/// them. It also keeps whatever its stages make of a draw in memory until the next stage has read it: draws of some thousand vertices stay in the cache. Of fewer
+/// than 16 patches a draw's own price shows, and with more than some thousand draws their commands do.
+fn llvmpipe_patches(segments: u32, patches: u32) -> u32 {
+    let vertices = (segments + 2) * (segments + 2);
+    (2_048 / vertices).max(16).max(patches / 4_096).min(65_535 / vertices)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn draws_on_llvmpipe_are_short_but_neither_too_many_nor_garbled() {
+        assert_eq!(llvmpipe_patches(4, 200), 56);
+        assert_eq!(llvmpipe_patches(16, 200), 16);
+        assert_eq!(llvmpipe_patches(4, 4_000_000), 976);
+        for segments in 1..=64 {
+            for patches in [1, 10_000, 40_000_000] {
+                assert!((1..=65_535).contains(&(llvmpipe_patches(segments, patches) * (segments + 2).pow(2))));
+            }
+        }
     }
 }

@@ -217,6 +217,12 @@ fn changed_shaders_are_refused() {
     let mutations = [
         // Lights that do not follow the camera.
         Mutation { path: "include/frame.glsl", from: "mat3(frame.view_from_cage) * normal", to: "normal" },
+        // An eye at the middle of the surface.
+        Mutation {
+            path: "include/frame.glsl",
+            from: "(frame.view_from_cage * vec4(position, 1.0)).xyz",
+            to: "position",
+        },
         // A surface that is a little too large.
         Mutation {
             path: "include/evaluation_stage.glsl",
